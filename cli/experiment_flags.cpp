@@ -24,14 +24,15 @@ Experiment parse_experiment(const std::string& text) {
       {"accel", Experiment::kAccel},       {"bounds", Experiment::kBounds},
       {"growth", Experiment::kGrowth},     {"residency", Experiment::kResidency},
       {"samplers", Experiment::kSamplers}, {"lod", Experiment::kLod},
-      {"shading", Experiment::kShading}};
+      {"shading", Experiment::kShading},   {"bounces", Experiment::kBounces}};
   static const std::vector<std::string> promised{"scaling"};
   if (const auto found = built.find(text); found != built.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
     fail("experiment " + quote(text) +
-         " does not exist yet; choose one of accel, bounds, growth, lod, residency, samplers and shading");
+         " does not exist yet; choose one of accel, bounces, bounds, growth, lod, residency, samplers and "
+         "shading");
   fail("unknown experiment " + quote(text) + suggest(text, names));
 }
 
@@ -63,14 +64,15 @@ void add_experiment_flags(CLI::App& measure, Options& options) {
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "
           "beside path (of splatted, adaptive, gather, visibility, reuse, spacing, skin_spacing, cells, "
-          "light_rays, paths, cache, drawn, screen_door, gather_screen_door, occlusion_detail, "
+          "light_rays, paths, cache, no_cache, drawn, screen_door, gather_screen_door, occlusion_detail, "
           "gather_occlusion_detail, skin_ball, learned, together and others: see docs/MEASURE.md)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");
   measure
       .add_option("--samples", options.samples,
-                  "shading: sample counts to render each variant with (default: 4,16,64)")
+                  "shading: sample counts to render each variant with (default: 4,16,64). bounces: the "
+                  "largest of these counts is used")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 1 << 20))

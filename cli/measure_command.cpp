@@ -26,6 +26,7 @@ const char* experiment_name(Experiment experiment) {
          : experiment == Experiment::kSamplers ? "samplers"
          : experiment == Experiment::kLod      ? "lod"
          : experiment == Experiment::kShading  ? "shading"
+         : experiment == Experiment::kBounces  ? "bounces"
                                                : "residency";
 }
 
@@ -77,6 +78,8 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
     case Experiment::kShading:
       return measure_shading(scene, {options.samples, options.reference_samples, options.parts}, setup,
                              display);
+    case Experiment::kBounces:
+      return measure_bounces(scene, options.samples.back(), setup, display);
     case Experiment::kLod:
       return measure_lod(scene, options.characters, options.parts, setup, display);
   }
@@ -102,6 +105,8 @@ int run_measure(const Options& options) {
   std::vector<std::string> command{"pelage", "measure", report.experiment, options.input};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
   command.insert(command.end(), {"--repeat", std::to_string(options.repeat)});
+  if (options.experiment == Experiment::kBounces)
+    command.insert(command.end(), {"--samples", std::to_string(options.samples.back())});
   if (options.experiment == Experiment::kShading) {
     command.insert(command.end(), {"--samples", fmt::format("{}", fmt::join(options.samples, ",")),
                                    "--reference-samples", std::to_string(options.reference_samples)});

@@ -105,7 +105,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       "measure", "Run one experiment, one process per variant, and write a report: JSON, CSV, HTML");
   measure
       ->add_option("EXPERIMENT", texts.experiment,
-                   "accel, bounds, growth, lod, residency, samplers or shading")
+                   "accel, bounces, bounds, growth, lod, residency, samplers or shading")
       ->required();
   add_scene_flags(*measure, options, texts);
   measure

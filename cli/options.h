@@ -38,7 +38,7 @@ enum class Command {
   kManual
 };
 
-enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod, kShading };
+enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod, kShading, kBounces };
 
 /// Parts of the report of `measure lod`.
 inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};

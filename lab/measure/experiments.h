@@ -51,6 +51,11 @@ struct ShadingPlan {
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 
+/// Renders with 0 to 64 bounces by `path`, and by `gather` with and without the reflection cache. Reports CPU
+/// time, the light that each number of bounces adds, and the cells of the cache. `samples`: per pixel.
+Measured measure_bounces(const SceneDescription& scene, int samples, const MeasureSetup& setup,
+                         Progress& progress);
+
 /// Compares reduced detail with full detail. `parts` holds names from kLodParts; empty: all parts.
 ///   crowd   cost of a whole crowd in full detail, extrapolated from `full_detail` characters
 ///   detail  strands, working set, time and error by criterion, distance, blur and focus

@@ -21,9 +21,9 @@ ShadingCurve gather(const char* id, const std::string& title) {
   return curve;
 }
 
-/// `gather` with one other setting.
-ShadingCurve gather_with(const char* key, const std::string& value) {
-  ShadingCurve curve = gather(key, fmt::format("gather, {}: {}", key, value));
+/// `gather` with one other setting. `id`: of the curve; by default, the key.
+ShadingCurve gather_with(const char* key, const std::string& value, const char* id = nullptr) {
+  ShadingCurve curve = gather(id ? id : key, fmt::format("gather, {}: {}", key, value));
   curve.settings.emplace_back(fmt::format("render.gather.{}", key), value);
   return curve;
 }
@@ -106,7 +106,8 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
       gather_with("cells", own.cells ? "false" : "true"),
       gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
       gather_with("paths", fmt::format("{:g}", own.paths / 2)),
-      gather_with("cache", own.uses_cache(scene.render.bounces) ? "false" : "true"),
+      gather_with("cache", "true"),
+      gather_with("cache", "false", "no_cache"),
       gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
   curves.back().settings.back().second = "drawn";

@@ -29,9 +29,20 @@ float CoatCells::samples_on(const Strands& strand, float length) const {
 
 uint64_t CoatCells::key(const Hit& hit, const Strands& strand, float length, float place,
                         uint64_t random) const {
+  const uint64_t key = cube(hit, strand, kPixels, random);
+  const int level = level_of(length, kPixels);
+  const float u = unit_float(hash64(random_use("part of a strand"), random));
+  return hash64(key, pack(level, knot_near(place, level, u)));
+}
+
+uint64_t CoatCells::patch(const Hit& hit, const Strands& strand) const {
+  return cube(hit, strand, kPatchPixels, hash64(random_use("patch of a coat"), hit.part, hit.strand_id));
+}
+
+uint64_t CoatCells::cube(const Hit& hit, const Strands& strand, float side, uint64_t random) const {
   const RestPlace root = rest_place(fur_[hit.part], strand);
   const float pixels = root.scale * pixels_per_unit(view_, strand.point(0));
-  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinExponent, kMaxExponent);
+  const int exponent = std::clamp(std::ilogb(side / pixels), kMinExponent, kMaxExponent);
   uint64_t key =
       hash64(random_use("cell of a coat"), hit.part, side_of(root.normal), static_cast<uint32_t>(exponent));
   for (int axis = 0; axis < 3; ++axis) {
@@ -39,8 +50,7 @@ uint64_t CoatCells::key(const Hit& hit, const Strands& strand, float length, flo
     const double at = std::ldexp(double{root.position[axis]}, -exponent) + unit_float(random) - 0.5;
     key = hash64(key, static_cast<uint64_t>(static_cast<int64_t>(std::floor(at))));
   }
-  const int level = level_of(length, kPixels);
-  return hash64(key, pack(level, knot_near(place, level, unit_float(mix64(random)))));
+  return key;
 }
 
 }  // namespace pelage

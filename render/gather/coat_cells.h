@@ -26,6 +26,7 @@ namespace pelage {
 class CoatCells {
  public:
   static constexpr float kPixels = 2;
+  static constexpr float kPatchPixels = 8;
 
   /// Keeps a reference to `fur`. `samples`: samples per pixel that share light.
   CoatCells(const Camera& camera, const std::vector<FurPart>& fur, float samples);
@@ -36,8 +37,14 @@ class CoatCells {
   /// Returns the key of a cell. `length`: of the strand in the picture, in pixels. `place`: of the hit on the
   /// strand, in [0, 1].
   uint64_t key(const Hit& hit, const Strands& strand, float length, float place, uint64_t random) const;
+  /// Returns the key of a patch: a cube of the skin at rest, like that of a cell but at most kPatchPixels
+  /// large, that contains the root of the strand. A random number of the strand assigns it to one of the
+  /// cubes around its root.
+  uint64_t patch(const Hit& hit, const Strands& strand) const;
 
  private:
+  uint64_t cube(const Hit& hit, const Strands& strand, float side, uint64_t random) const;
+
   const std::vector<FurPart>& fur_;
   LodView view_;
   float samples_;

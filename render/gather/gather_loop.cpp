@@ -26,7 +26,7 @@ std::vector<Tile> tiles_of(const PixelBox& film) {
   return tiles;
 }
 
-bool uses_cache(const RenderScene& scene) { return scene.render.gather.uses_cache(scene.render.bounces); }
+bool uses_cache(const RenderScene& scene) { return scene.render.uses_cache(scene.skins.size()); }
 
 }  // namespace
 

@@ -47,7 +47,7 @@ size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   const size_t rays = lights * TileSamples::targets(lights);
   const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
   // At worst, each sample has a knot of its own.
-  const size_t knot = IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
+  const size_t knot = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
                       PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
   // One sample in kPilotShare is a pilot; at least one is.
@@ -85,6 +85,7 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   scratch.paths.begin(samples.zone_of_knot.size(), samples.zones, lights, reuse);
   if (!indirect_paths_.trace(samples, job, scratch.indirect_paths, scratch, scratch.paths)) return false;
   scratch.paths.finish(samples.zone_of_knot);
+  if (reuse) scratch.paths.blend(samples.patch_of_knot, samples.patches);
   return true;
 }
 

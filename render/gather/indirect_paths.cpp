@@ -24,7 +24,7 @@ class IndirectPaths::ArrivingLight {
   /// Ends the path at its second surface if the cache knows what this surface reflects.
   bool arrive(const PathState& path, const HitGeometry& met) {
     if (!cache_ || path.vertex > 1) return true;
-    const Rgb* reflected = cache_->find(path.ray, path.hit, met);
+    const ReflectionSlots::Radiance reflected = cache_->find(path.ray, path.hit, met);
     ++counts_.lookups;
     if (!reflected) return true;
     ++counts_.found;

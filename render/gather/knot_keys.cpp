@@ -31,16 +31,17 @@ KnotKeys::KnotKeys(const RenderScene& scene, uint32_t samples)
 KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random,
                      RecentStrandKnots& recent) const {
   if (hit.kind != HitKind::kStrand) return on_skin(hit, met.triangle, random);
-  const StrandKnots knots = recent.of(hit.key(), [&] { return knots_of(met.strand); });
+  const StrandKnots knots = recent.of(hit.key(), [&] { return knots_of(hit, met.strand); });
   return on_strand(hit, met.strand, knots, random);
 }
 
-StrandKnots KnotKeys::knots_of(const Strands& strand) const {
+StrandKnots KnotKeys::knots_of(const Hit& hit, const Strands& strand) const {
   StrandKnots knots;
   knots.length = camera_.projected_length(strand.points(), 0);
   knots.level = level_of(knots.length, params_.spacing);
   knots.in_cells =
       params_.cells && cells_.samples_on(strand, std::ldexp(knots.length, -knots.level)) < kFewest;
+  knots.patch = cells_.patch(hit, strand);
   return knots;
 }
 
@@ -52,18 +53,23 @@ KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, const StrandK
   const uint32_t knot = knot_near(place, level, random.x);
   const uint32_t zone = std::min(kZones * knot >> level, kZones - 1);
   const uint64_t zone_key = hash64(random_use("zone of a coat"), hit.part, zone);
+  // Pairs of knots where these are shorter than a zone.
+  const uint32_t part = (1u << level) > 2 * kZones ? kZones + knot / 2 : zone;
+  const uint64_t patch = hash64(knots.patch, part);
   if (knots.in_cells) {
     const uint64_t bits = std::bit_cast<uint32_t>(random.y);
-    return {cells_.key(hit, strand, knots.length, place, bits), zone_key};
+    return {cells_.key(hit, strand, knots.length, place, bits), patch, zone_key};
   }
-  return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)), zone_key};
+  return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)), patch,
+          zone_key};
 }
 
 KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const {
   const uint64_t zone = hash64(random_use("zone of a skin"), hit.part);
   if (triangle.vertex_uv.empty()) {
     const uint64_t face = triangle.faces.empty() ? 0 : triangle.faces[0];
-    return {hash64(random_use("knot of a skin"), hit.part, face), zone};
+    const uint64_t knot = hash64(random_use("knot of a skin"), hit.part, face);
+    return {knot, knot, zone};
   }
   // Size in the picture of the face's two parameter lines, from the triangle that was hit.
   const V2f* at = triangle.vertex_uv.data();
@@ -82,10 +88,10 @@ KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& r
     }
   }
   const V2f place = skin_parameters(triangle, hit);
-  return {hash64(random_use("knot of a skin"), hit.part, triangle.faces[0],
-                 pack(levels[0], knot_near(place.x, levels[0], random.x)),
-                 pack(levels[1], knot_near(place.y, levels[1], random.y))),
-          zone};
+  const uint64_t knot = hash64(random_use("knot of a skin"), hit.part, triangle.faces[0],
+                               pack(levels[0], knot_near(place.x, levels[0], random.x)),
+                               pack(levels[1], knot_near(place.y, levels[1], random.y)));
+  return {knot, knot, zone};
 }
 
 }  // namespace pelage

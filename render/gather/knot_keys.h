@@ -13,12 +13,14 @@
 
 namespace pelage {
 
-/// Identifies a knot and its zone. A knot is a position on a strand or skin, or a cell of a coat (see
-/// CoatCells). Samples that see the surroundings of the same knot share light. A zone is one of eight depth
-/// ranges of a coat, or a whole skin.
+/// Identifies a knot, its patch and its zone. A knot is a position on a strand or skin, or a cell of a coat
+/// (see CoatCells). Samples that see the surroundings of the same knot share light. A patch is a part of a
+/// coat, a few pixels long and wide, or a single knot of a skin; about the same indirect light arrives at its
+/// knots. A zone is one of eight depth ranges of a coat, or a whole skin.
 struct KnotKey {
   uint64_t knot = 0;
-  uint64_t zone = 0;  ///< the zone that contains the knot
+  uint64_t patch = 0;
+  uint64_t zone = 0;
 };
 
 /// Assigns the hits of a frame to knots.
@@ -29,6 +31,9 @@ struct KnotKey {
 /// at random to one of the knots around it. The probability of a knot is its linear interpolation weight. On
 /// average, light is therefore interpolated linearly between knots. Strands so thin that a knot would be
 /// seen by less than one sample are assigned to the cells of their coat instead.
+///
+/// The knots of a coat whose strands grow in the same cube of the skin (CoatCells::patch()) are in one patch
+/// if they are at the same eighth of a strand or, on longer strands, within CoatCells::kPatchPixels along it.
 ///
 /// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone
 /// within the same tile of the picture, about the same fraction of a light arrives.
@@ -46,7 +51,7 @@ class KnotKeys {
   KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random, RecentStrandKnots& recent) const;
 
  private:
-  StrandKnots knots_of(const Strands& strand) const;
+  StrandKnots knots_of(const Hit& hit, const Strands& strand) const;
   KnotKey on_strand(const Hit& hit, const Strands& strand, const StrandKnots& knots, const V2f& random) const;
   KnotKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
 

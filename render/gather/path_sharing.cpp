@@ -4,6 +4,9 @@
 namespace pelage {
 namespace {
 
+/// The mean of a patch counts as much as this number of a knot's own paths. See docs/lab/GATHER.md.
+constexpr float kPatchPaths = 32;
+
 Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
   Rgb result(0);
   for (int c = 0; c < 3; ++c) {
@@ -28,6 +31,7 @@ void PathSharing::add_weights(uint32_t knot, const Rgb* weights) {
 }
 
 void PathSharing::add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance) {
+  ++weights_[knot].paths;
   for (int g = 0; g < kLobeGroups; ++g) weights_[knot].traced[g] += factor * weights[g];
   Rgb* arrived = &arrived_[knot * lights_ * kLobeGroups];
   for (const Rgb& light : radiance) {
@@ -58,6 +62,34 @@ void PathSharing::finish(const std::vector<uint32_t>& zone_of_knot) {
       for (int g = 0; g < kLobeGroups; ++g) {
         of[g] = guess + ratio(of[g] - guess * own.traced[g], own.all[g], Rgb(0));
       }
+    }
+  }
+}
+
+void PathSharing::blend(const std::vector<uint32_t>& patch_of_knot, uint32_t patches) {
+  const auto part = [&](size_t knot) {
+    return kPatchPaths / (kPatchPaths + static_cast<float>(weights_[knot].paths));
+  };
+  const size_t values = lights_ * kLobeGroups;  // of a knot
+  patch_weights_.assign(size_t{patches} * kLobeGroups, Rgb(0));
+  patch_scattered_.assign(patches * values, Rgb(0));
+  for (size_t knot = 0; knot < patch_of_knot.size(); ++knot) {
+    const size_t patch = patch_of_knot[knot];
+    const Rgb* radiance = &arrived_[knot * values];
+    Rgb weights[kLobeGroups];
+    for (size_t g = 0; g < kLobeGroups; ++g) {
+      weights[g] = part(knot) * weights_[knot].all[g];
+      patch_weights_[patch * kLobeGroups + g] += weights[g];
+    }
+    for (size_t i = 0; i < values; ++i)
+      patch_scattered_[patch * values + i] += weights[i % kLobeGroups] * radiance[i];
+  }
+  for (size_t knot = 0; knot < patch_of_knot.size(); ++knot) {
+    const size_t patch = patch_of_knot[knot];
+    for (size_t i = 0; i < values; ++i) {
+      Rgb& radiance = arrived_[knot * values + i];
+      const Rgb& weights = patch_weights_[patch * kLobeGroups + i % kLobeGroups];
+      radiance += part(knot) * (ratio(patch_scattered_[patch * values + i], weights, Rgb(0)) - radiance);
     }
   }
 }

@@ -35,9 +35,15 @@ class PathSharing {
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
   /// Computes the radiances. Call after all paths were added.
   void finish(const std::vector<uint32_t>& zone_of_knot);
-  /// Returns the memory per knot, in bytes.
-  static size_t bytes_per_knot(size_t lights) { return sizeof(Weights) + lights * kLobeGroups * sizeof(Rgb); }
-  /// Returns the result of finish().
+  /// Blends the radiances of each patch (see KnotKey), after finish(). The fewer paths a knot has, the closer
+  /// its radiance comes to the mean of its patch. The light that all knots of the patch scatter does not
+  /// change.
+  void blend(const std::vector<uint32_t>& patch_of_knot, uint32_t patches);
+  /// Returns the max memory per knot, in bytes. At worst, each knot has a patch of its own.
+  static size_t bytes_per_knot(size_t lights) {
+    return sizeof(Weights) + kLobeGroups * sizeof(Rgb) + 2 * lights * kLobeGroups * sizeof(Rgb);
+  }
+  /// Returns the result of finish() or blend().
   const Rgb& radiance(uint32_t knot, size_t light, int group) const {
     return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
   }
@@ -47,6 +53,7 @@ class PathSharing {
     // Sums over all points of the knot, and over its paths times their factors.
     Rgb all[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
     Rgb traced[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
+    uint32_t paths = 0;
   };
 
   size_t lights_ = 0;
@@ -55,6 +62,9 @@ class PathSharing {
   std::vector<Rgb> arrived_;       // by knot, light and lobe group; finish() replaces sums by radiances
   std::vector<Rgb> zone_traced_;   // by zone
   std::vector<Rgb> zone_arrived_;  // by zone and light
+  // Sums over the knots of a patch, each times the part of its radiance that blend() replaces:
+  std::vector<Rgb> patch_weights_;    // by patch and lobe group
+  std::vector<Rgb> patch_scattered_;  // by patch, light and lobe group
 };
 
 }  // namespace pelage

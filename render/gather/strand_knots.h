@@ -15,6 +15,7 @@ struct StrandKnots {
   float length = 0;       ///< of the control polygon in the picture when the shutter opens, in pixels
   int level = 0;          ///< the strand has 2^level + 1 knots
   bool in_cells = false;  ///< whether its hits are assigned to the cells of the coat instead
+  uint64_t patch = 0;     ///< CoatCells::patch()
 };
 
 /// Keeps the StrandKnots of the strands that a thread met last: samples of neighbouring pixels often see the

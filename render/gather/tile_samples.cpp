@@ -17,12 +17,13 @@ void TileSamples::begin(const Tile& of, uint32_t samples_per_pixel, size_t light
   start(light_rays, count * lights * targets(lights));
   start(unoccluded, count * lights * kLobeGroups);
   start(zone_of_knot, count);
+  start(patch_of_knot, count);
   fronts.assign(pixels(), {});
-  zones = 0;
+  zones = patches = 0;
 }
 
 size_t TileSamples::bytes_per_sample(size_t lights) {
-  return sizeof(Sample) + sizeof(VisiblePoint) + sizeof(uint32_t) +
+  return sizeof(Sample) + sizeof(VisiblePoint) + 2 * sizeof(uint32_t) +
          lights * (sizeof(SeenLight) + targets(lights) * sizeof(LightRay) + kLobeGroups * sizeof(Rgb));
 }
 

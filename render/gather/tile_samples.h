@@ -92,8 +92,9 @@ struct TileSamples {
   std::vector<LightRay> light_rays;  ///< by point, then by light; at most targets() of each
   /// Direct light that the points scatter to the camera if nothing blocks it, by point, light and lobe group.
   std::vector<Rgb> unoccluded;
-  std::vector<uint32_t> zone_of_knot;  ///< index of the zone (see KnotKey) of each knot
-  uint32_t zones = 0;                  ///< count of zones
+  std::vector<uint32_t> zone_of_knot;   ///< index of the zone (see KnotKey) of each knot
+  std::vector<uint32_t> patch_of_knot;  ///< index of the patch of each knot
+  uint32_t zones = 0, patches = 0;      ///< count of each
 
   /// Clears everything and reserves the memory of the samples.
   void begin(const Tile& of, uint32_t samples_per_pixel, size_t lights);

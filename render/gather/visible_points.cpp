@@ -42,7 +42,9 @@ uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSample
   const uint32_t knot = scene_.render.gather.reuse ? scratch.knots.index(key.knot) : count;
   if (knot < count) return knot;
   tile.zone_of_knot.push_back(scratch.zones.index(key.zone));
+  tile.patch_of_knot.push_back(scratch.patches.index(key.patch));
   tile.zones = scratch.zones.size();
+  tile.patches = scratch.patches.size();
   return knot;
 }
 

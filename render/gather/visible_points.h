@@ -42,14 +42,15 @@ class VisiblePoints {
 
   struct Scratch {
     DirectLightScratch direct;
-    IndexTable knots, zones;  // index of each, by its key
+    IndexTable knots, patches, zones;  // index of each, by its key
     RecentStrandKnots strands;
     std::vector<Candidate> candidates;  // of the current point
     std::vector<float> masses;          // sum of mass * deviation over the candidates, by light
 
-    /// Forgets the knots and zones of the last tile.
+    /// Forgets the knots, patches and zones of the last tile.
     void clear() {
       knots.clear();
+      patches.clear();
       zones.clear();
     }
   };

@@ -21,9 +21,10 @@ namespace {
 constexpr int kSide = 16;      // of a tile, in pixels
 constexpr size_t kBatch = 32;  // tiles whose tables are added up at once
 constexpr double kAtOnce = 4;  // paths per pixel that a tile adds to a table at once
-/// Max count of cells: per pixel, and in the smallest picture. Beyond, the smallest cells are dropped, so
-/// that the limit depends on the picture alone.
-constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15;
+/// Max count of cells: per pixel, but at least kFewestCells and at most kMostCells. Beyond, the smallest
+/// cells are dropped. So the limit depends on the picture alone. In large pictures, cells of twice the size
+/// are still small on the animal.
+constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells = size_t{1} << 20;
 
 double paths_per_pixel(const RenderParams& render) {
   return double{render.gather.cache_paths} * render.samples;
@@ -34,20 +35,24 @@ uint32_t rounds(const RenderParams& render) {
   return static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)));
 }
 
+size_t tile_count(const RenderScene& scene) {
+  const auto across = [](int side) { return static_cast<size_t>((side + kSide - 1) / kSide); };
+  return across(scene.image.width) * across(scene.image.height);
+}
+
 /// Max count of cells that one batch of tiles adds.
 size_t cells_of_batch(const RenderScene& scene) {
   const double paths = paths_per_pixel(scene.render) / rounds(scene.render) * kSide * kSide + 1;
-  return kBatch * static_cast<size_t>(std::ceil(paths)) * std::tuple_size_v<CellPath>;
+  return std::min(kBatch, tile_count(scene)) * static_cast<size_t>(std::ceil(paths)) *
+         std::tuple_size_v<CellPath>;
 }
 
 size_t max_cells(const RenderScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
-  const auto across = [](int side) { return static_cast<double>((side + kSide - 1) / kSide); };
   // Each tile of each round may round its count of paths up.
-  const double tiles = across(scene.image.width) * across(scene.image.height);
-  const double paths =
-      std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels)) + tiles * rounds(scene.render);
-  const size_t limit = std::max(kFewestCells, kCellsPerPixel * pixels);
+  const double paths = std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels)) +
+                       static_cast<double>(tile_count(scene) * rounds(scene.render));
+  const size_t limit = std::clamp(kCellsPerPixel * pixels, kFewestCells, kMostCells);
   return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
 }
 
@@ -55,8 +60,10 @@ size_t max_cells(const RenderScene& scene) {
 int64_t max_bytes(const RenderScene& scene) {
   const size_t lights = scene.lights.size(), batch = cells_of_batch(scene);
   constexpr size_t kDoubling = 3;  // vectors of the tables of tiles grow: the old array beside the new one
+  const size_t tables = kDoubling * ReflectionTable::max_bytes(batch, lights);
+  const size_t slots = ReflectionSlots::max_bytes(max_cells(scene), lights);  // after those tables
   return static_cast<int64_t>(ReflectionTable::max_bytes(max_cells(scene) + batch, lights) +
-                              kDoubling * ReflectionTable::max_bytes(batch, lights));
+                              std::max(tables, slots));
 }
 
 }  // namespace
@@ -98,11 +105,8 @@ void CacheFill::run(MemoryCharge reserved, const Job& job, const Stopwatch& cloc
   }
   job.progress.end();
   if (job.progress.cancelled()) return;
-  reserved = {};
-  const auto bytes = static_cast<int64_t>(sum.bytes());
-  MemoryCharge charge(job.ledger, MemoryTag::kReflectionCache, bytes);
   cells_ = static_cast<int64_t>(sum.size());
-  cache.emplace(scene_, std::move(sum), std::move(charge));
+  cache.emplace(scene_, std::move(sum), std::move(reserved), job.ledger);
 }
 
 /// Traces the paths of a round of some tiles, and adds them to `sum` in the order of the tiles.

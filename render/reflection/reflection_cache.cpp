@@ -12,23 +12,28 @@ constexpr uint32_t kFew = 8;
 /// noisy, and one with many needs no help.
 constexpr float kBlend = 8;
 
-}  // namespace
-
-ReflectionCache::ReflectionCache(const RenderScene& scene, ReflectionTable table, MemoryCharge charge)
-    : keys_(scene), table_(std::move(table)), charge_(std::move(charge)) {
-  table_.finish(kBlend);
+ReflectionSlots slots_of(ReflectionTable table, size_t lights) {
+  table.finish(kBlend);
+  return {table, lights, kFew};
 }
 
-const Rgb* ReflectionCache::find(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+}  // namespace
+
+ReflectionCache::ReflectionCache(const RenderScene& scene, ReflectionTable table, MemoryCharge reserved,
+                                 MemoryLedger& ledger)
+    : keys_(scene), slots_(slots_of(std::move(table), scene.lights.size())) {
+  reserved = {};
+  charge_ = MemoryCharge(ledger, MemoryTag::kReflectionCache, static_cast<int64_t>(slots_.bytes()));
+}
+
+ReflectionSlots::Radiance ReflectionCache::find(const Ray& ray, const Hit& hit,
+                                                const HitGeometry& met) const {
   const std::optional<CellPath> cells = keys_.of(ray, hit, met);
-  if (!cells) return nullptr;
-  const size_t largest = table_.find(cells->back());
-  if (largest == table_.size() || table_.cell(largest).paths < kFew) return nullptr;
+  if (!cells) return {};
   for (const uint64_t key : *cells) {
-    const size_t cell = table_.find(key);
-    if (cell < table_.size()) return table_.radiance(cell);
+    if (const auto radiance = slots_.find(key)) return radiance;
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace pelage

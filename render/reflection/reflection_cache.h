@@ -10,6 +10,7 @@
 #include "render/frame/tile_costs.h"
 #include "render/reflection/cell_keys.h"
 #include "render/reflection/reflection_paths.h"
+#include "render/reflection/reflection_slots.h"
 #include "render/reflection/reflection_table.h"
 
 namespace pelage {
@@ -21,18 +22,18 @@ namespace pelage {
 /// Thread safety: const members may be called from any thread.
 class ReflectionCache {
  public:
-  /// Keeps a reference to `scene`. `table`: without finish().
-  ReflectionCache(const RenderScene& scene, ReflectionTable table, MemoryCharge charge);
+  /// Keeps a reference to `scene`. `table`: without finish(). `reserved`: ends here; it must cover the table
+  /// and the cells arranged for reading.
+  ReflectionCache(const RenderScene& scene, ReflectionTable table, MemoryCharge reserved,
+                  MemoryLedger& ledger);
 
-  /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Null where too few
+  /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few
   /// paths arrived.
-  const Rgb* find(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
-
-  size_t cells() const { return table_.size(); }
+  ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
 
  private:
   CellKeys keys_;
-  ReflectionTable table_;
+  ReflectionSlots slots_;
   MemoryCharge charge_;
 };
 

@@ -60,9 +60,10 @@ void ReflectionTable::finish(float blend) {
 void ReflectionTable::finish(size_t i, float blend, std::vector<bool>& finished) {
   if (finished[i]) return;
   finished[i] = true;
-  const Cell& cell = cells_[i];
+  Cell& cell = cells_[i];
   const size_t outer = cell.outer == cell.key ? i : find(cell.outer);
   if (outer != i) finish(outer, blend, finished);
+  cell.paths_of_largest = outer == i ? cell.paths : cells_[outer].paths_of_largest;
   if (!(cell.weight > 0)) return;
   const float added = outer == i ? 0 : blend * cell.weight / static_cast<float>(cell.paths);
   for (size_t light = 0; light < lights_; ++light) {
@@ -83,7 +84,7 @@ size_t ReflectionTable::find(uint64_t key) const {
 size_t ReflectionTable::insert(uint64_t key, uint64_t outer, uint32_t level) {
   const size_t found = find(key);
   if (found < cells_.size()) return found;
-  cells_.push_back({key, outer, 0, 0, level});
+  cells_.push_back({key, outer, 0, 0, level, 0});
   radiance_.resize(cells_.size() * lights_, Rgb(0));
   most_ = std::max(most_, cells_.size());
   if (2 * cells_.size() > index_.size()) {

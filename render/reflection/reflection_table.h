@@ -21,6 +21,7 @@ class ReflectionTable {
     uint32_t paths = 0;  ///< count of the paths that were added
     float weight = 0;    ///< sum of their weights
     uint32_t level = 0;  ///< 0: the smallest of the cells that a path was added to
+    uint32_t paths_of_largest = 0;  ///< after finish(): `paths` of the largest cell around this one
   };
 
   /// `room`: the count of cells for which memory is reserved at once.

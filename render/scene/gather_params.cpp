@@ -21,13 +21,15 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
                    "as with `integrator: path`. Set it to false to measure what sharing changes"});
-    s.key("spacing", &GatherParams::spacing,
-          {.unit = "pixels",
-           .help = "Maximum distance between knots along a strand. Knots are points at which light is "
-                   "gathered, and the samples near a knot share its light. A larger distance gives less "
-                   "noise, but blurs shadows along strands",
-           .min = 0.25,
-           .max = 64});
+    s.key(
+        "spacing", &GatherParams::spacing,
+        {.unit = "pixels",
+         .help = "Maximum distance between knots along a strand. Knots are points at which light is "
+                 "gathered, and the samples near a knot share its light. A larger distance gives less "
+                 "noise, but blurs shadows along strands. Indirect light is also averaged over neighbouring "
+                 "strands, over about 8 pixels",
+         .min = 0.25,
+         .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
     s.key(
@@ -58,14 +60,15 @@ const Schema<GatherParams>& GatherParams::schema() {
           {.help = "true: indirect paths end at the second surface. The light that this surface reflects is "
                    "read from a cache of cells about 8 pixels large, which paths of the whole picture fill "
                    "first. Glossy skins are not cached. Needs `reuse: true`",
-           .default_text = "true with at least 8 `bounces`"});
+           .default_text = "true with at least 2 `bounces`; with more than 8 skins, at least 8"});
     s.key("cache_paths", &GatherParams::cache_paths,
           {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});
-    s.key("memory", &GatherParams::memory,
-          {.help = "Maximum memory of the cache. Pelage reserves about 250 bytes per pixel with one light, "
-                   "and 50 more "
-                   "with each other light. If that does not fit, it refuses to render",
-           .default_text = "what `render.memory` leaves"});
+    s.key(
+        "memory", &GatherParams::memory,
+        {.help = "Maximum memory of the cache. Pelage reserves about 450 bytes per pixel with one light, and "
+                 "850 with three, but at most about 120 MB and 230 MB. If that does not fit, it refuses to "
+                 "render",
+         .default_text = "what `render.memory` leaves"});
     return s;
   }();
   return table;

@@ -24,16 +24,12 @@ struct GatherParams {
   bool cells = true;                           ///< whether neighbouring thin strands share light
   float min_width = 0;                         ///< width at which the camera sees thinner strands, pixels
   float light_rays = 3;                        ///< mean count of shadow rays per visible sample
-  float paths = 1;            ///< mean count of indirect paths per visible sample, before roulette
-  std::optional<bool> cache;  ///< whether indirect paths end in the reflection cache; empty: see uses_cache()
+  float paths = 1;  ///< mean count of indirect paths per visible sample, before roulette
+  std::optional<bool>
+      cache;  ///< whether indirect paths end in the reflection cache; empty: see RenderParams::uses_cache()
   float cache_paths = 0.25f;  ///< paths that fill the cache / camera samples
   ByteSize memory{};          ///< max memory of the cache; 0: what `render.memory` leaves
 
-  /// Max `render.bounces` without the cache by default: shorter paths cost little, and have less noise than
-  /// cells.
-  static constexpr int kFewBounces = 7;
-  /// Returns whether paths with so many `bounces` end in the reflection cache.
-  bool uses_cache(int bounces) const { return reuse && bounces > 0 && cache.value_or(bounces > kFewBounces); }
   static const Schema<GatherParams>& schema();
 };
 

@@ -106,13 +106,22 @@ struct RenderParams {
     return gather.visibility.value_or(GatherVisibility::kRaster) == GatherVisibility::kRaster &&
            in_fur_trees(accel, curves);
   }
-  /// Max count of skins that have balls by default: a crowd would spend more time on them than it saves.
+  /// Scenes with more skins are crowds. They have no balls by default: they would take more time than they
+  /// save.
   static constexpr size_t kFewSkins = 8;
   /// Returns what balls inside `skins` skins are used for. By default, `path` traces every ray, because it is
   /// the reference of all faster methods.
   SkinBallUse ball_use(size_t skins) const {
     const bool pays = integrator == Integrator::kGather && skins <= kFewSkins;
     return skin_ball.value_or(pays ? SkinBallUse::kExact : SkinBallUse::kOff);
+  }
+  /// Max `bounces` without the reflection cache by default. A single bounce ends where the cache would end
+  /// it. In crowds, an animal covers few pixels, and few paths fill its cells.
+  static constexpr int kFewBounces = 1, kFewBouncesInCrowds = 7;
+  /// Returns whether indirect paths of `gather` end in the reflection cache, in a scene with `skins` skins.
+  bool uses_cache(size_t skins) const {
+    const int few = skins <= kFewSkins ? kFewBounces : kFewBouncesInCrowds;
+    return gather.reuse && bounces > 0 && gather.cache.value_or(bounces > few);
   }
   /// Returns the width, in pixels, at which the camera sees thinner strands; 0: strands keep their widths.
   float min_width() const {

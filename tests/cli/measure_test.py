@@ -117,6 +117,24 @@ class Measure(unittest.TestCase):
             self.assertGreater(plain["rel_mse"], 0)
             self.assertLess(abs(frame["bias"]), 0.05)
 
+    def test_bounces(self):
+        self.measure("bounces", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "8",
+                     "--set", "image.width=32", "--set", "image.height=24", "--set", "render.gather.cache_paths=8")
+        rows = {row["variant"]: row for row in self.read("out")["rows"]}
+        methods = "path", "gather, cache: false", "gather, cache: true"
+        counts = ["0 bounces", "1 bounce"] + [f"{n} bounces" for n in (2, 4, 8, 16, 32, 64)]
+        self.assertEqual(list(rows), ["warm-up"] + [f"{method}, {count}" for count in counts for method in methods])
+        self.assertEqual(rows["path, 64 bounces"]["light"], 1)
+        for method in methods:
+            self.assertEqual(rows[f"{method}, 1 bounce"]["of_one_bounce"], 1)
+            lights = [rows[f"{method}, {count}"]["light"] for count in counts]
+            self.assertGreater(lights[1], lights[0])
+            self.assertAlmostEqual(sum(rows[f"{method}, {count}"]["light_of_last_bounces"] for count in counts), lights[-1])
+            self.assertLess(abs(rows[f"{method}, 64 bounces"]["light_off"]), 0.1)
+        self.assertGreater(rows["gather, cache: true, 8 bounces"]["found"], 0.3)
+        self.assertGreater(rows["gather, cache: true, 8 bounces"]["cache_bytes"], 0)
+        self.assertEqual(rows["gather, cache: false, 8 bounces"]["cells"], 0)
+
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
                      "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,skin_ball_learned", "--set", "image.width=48",

@@ -204,8 +204,8 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(parsed({"measure", "accel", "s"}).experiment, Experiment::kAccel);
   EXPECT_EQ(problem({"measure", "growht", "s"}), "unknown experiment 'growht'; did you mean 'growth'?");
   EXPECT_EQ(problem({"measure", "scaling", "s"}),
-            "experiment 'scaling' does not exist yet; choose one of accel, bounds, growth, lod, residency, "
-            "samplers and shading");
+            "experiment 'scaling' does not exist yet; choose one of accel, bounces, bounds, growth, lod, "
+            "residency, samplers and shading");
   const Options lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
   EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
   EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
@@ -220,6 +220,7 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(shading.parts, (std::vector<std::string>{"gather", "reuse"}));
   EXPECT_EQ(parsed({"measure", "shading", "s"}).samples, (std::vector<int>{4, 16, 64}));
   EXPECT_NE(problem({"measure", "shading", "s", "--samples", "0"}), "");
+  EXPECT_EQ(parsed({"measure", "bounces", "s", "--samples", "8"}).experiment, Experiment::kBounces);
   EXPECT_NE(problem({"measure", "shading", "s", "--reference-samples", "0"}), "");
   EXPECT_EQ(problem({"measure", "shading", "s", "--parts", "gatehr"}),
             "--parts: unknown part 'gatehr'; did you mean 'gather'?");

@@ -40,6 +40,16 @@ class CoatCellsTest : public ::testing::Test {
     for (uint64_t i = 0; i < 500; ++i) result.insert(cells.key(hit, strand, length_, place, mix64(i)));
     return result;
   }
+  /// The patches of many strands that grow at the same place.
+  std::set<uint64_t> patches(const RootAddress& root, uint32_t part = 0) const {
+    const CoatCells cells(camera_, fur_, 64);
+    Hit hit = hit_on(0.5f);
+    hit.part = part;
+    std::set<uint64_t> result;
+    for (hit.strand_id = 0; hit.strand_id < 500; ++hit.strand_id)
+      result.insert(cells.patch(hit, grown(V3f(0), root)));
+    return result;
+  }
   static bool share(const std::set<uint64_t>& a, const std::set<uint64_t>& b) {
     return std::any_of(a.begin(), a.end(), [&](uint64_t key) { return b.contains(key); });
   }
@@ -68,6 +78,16 @@ TEST_F(CoatCellsTest, CoatsAndTheTwoSidesOfASkinAreApart) {
   back.uv.clear();
   fur_[0].rest = shapes::surface_of(back);
   EXPECT_FALSE(share(cell, cells(strand)));
+}
+
+TEST_F(CoatCellsTest, PatchesAreEightPixelsLargeAndOverlap) {
+  const auto patch = patches({0, 0.5f, 0.5f});
+  EXPECT_GT(patch.size(), 1u) << "a random number decides";
+  EXPECT_TRUE(share(patch, patches({0, 0.55f, 0.5f})));
+  // Two patches side by side reach over 2 * 8 pixels = 0.64 units at most, and over 0.32 at least.
+  EXPECT_TRUE(share(patch, patches({0, 0.6f, 0.5f})));
+  EXPECT_FALSE(share(patches({0, 0.1f, 0.5f}), patches({0, 0.9f, 0.5f})));
+  EXPECT_FALSE(share(patch, patches({0, 0.5f, 0.5f}, 1))) << "of another coat";
 }
 
 TEST_F(CoatCellsTest, CellsDivideLongStrands) {

@@ -53,6 +53,7 @@ TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) 
 
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
+  scene.render.gather.cache = false;  // its memory has the same tag
   const FrameResult free = scene.run({}, 3);
   const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
@@ -146,6 +147,7 @@ TEST(GatherIntegrator, DividesItsCpuTime) {
 
 TEST(GatherIntegrator, TheSamplesOfAllPassesCount) {
   GatherScene scene;
+  scene.render.gather.cache = false;  // filling it takes camera rays, too
   scene.render.samples = 4;
   const FrameResult four = scene.run();
   EXPECT_EQ(four.samples, 4u);

@@ -2,6 +2,7 @@
 #include "render/gather/knot_keys.h"
 
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -55,13 +56,28 @@ TEST(KnotKeys, InterpolateLinearlyOnAverage) {
   EXPECT_NEAR(around.at(before) / 4000.0, 0.8, 0.03) << "a fifth of the way";
 }
 
+TEST(KnotKeys, APatchIsAnEighthOfAStrandOrTwoKnots) {
+  const RenderScene scene = key_scene::make({});
+  const KnotKeys keys(scene, kSamples);
+  const auto patches = [&](float length) {
+    const HitGeometry met = strand(length);
+    std::set<uint64_t> result;
+    for (uint32_t i = 0; i <= 4000; ++i)
+      result.insert(key_of(keys, hit_on(static_cast<float>(i) / 4000), met, {0.5f, 0}).patch);
+    return result.size();
+  };
+  EXPECT_EQ(patches(2), 8u) << "16 knots";
+  EXPECT_EQ(patches(4), 17u) << "32 parts of 3.1 pixels";
+  EXPECT_LE(patches(0.05f), 2u);
+}
+
 TEST(RecentStrandKnots, KeepsTheKnotsOfEachStrand) {
   RecentStrandKnots recent;
   int made = 0;
   const auto level = [&](uint32_t part, uint64_t id) {
     const auto make = [&] {
       ++made;
-      return StrandKnots{1, static_cast<int>(part * 10000 + id), false};
+      return StrandKnots{1, static_cast<int>(part * 10000 + id), false, 0};
     };
     return recent.of({part, id}, make).level;
   };

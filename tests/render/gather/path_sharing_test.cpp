@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gather/path_sharing.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,77 @@ TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
     }
   }
   EXPECT_LT(variances[1], 0.2 * variances[0]);
+}
+
+/// The light that the knots of one of two patches scatter, by light and lobe. Knot k belongs to patch k % 2.
+std::vector<Rgb> light_of_patch(const PathSharing& sharing, uint32_t patch) {
+  std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
+  for (uint32_t knot = patch; knot < kKnots; knot += 2) {
+    const std::vector<Rgb> light = light_of(sharing, knot);
+    for (size_t i = 0; i < result.size(); ++i) result[i] += light[i];
+  }
+  return result;
+}
+
+std::vector<uint32_t> two_patches() {
+  std::vector<uint32_t> result(kKnots);
+  for (uint32_t k = 0; k < kKnots; ++k) result[k] = k % 2;
+  return result;
+}
+
+TEST(PathSharing, BlendingKeepsTheLightOfAPatch) {
+  for (uint64_t trial = 0; trial < 20; ++trial) {
+    PathSharing sharing;
+    add(sharing, true, 0.2f, trial);
+    const std::vector<Rgb> before[] = {light_of_patch(sharing, 0), light_of_patch(sharing, 1)};
+    sharing.blend(two_patches(), 2);
+    for (uint32_t patch = 0; patch < 2; ++patch) {
+      const std::vector<Rgb> after = light_of_patch(sharing, patch);
+      for (size_t i = 0; i < after.size(); ++i) {
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(after[i][c], before[patch][i][c], 1e-4f * (1 + std::abs(before[patch][i][c])));
+      }
+    }
+  }
+}
+
+TEST(PathSharing, BlendingTakesMostOfTheNoiseOfKnots) {
+  double variances[2] = {0, 0};
+  for (const bool blended : {false, true}) {
+    std::vector<PixelMoments> moments(kKnots);
+    PathSharing sharing;
+    for (uint64_t trial = 0; trial < 2000; ++trial) {
+      add(sharing, true, 0.2f, trial);
+      if (blended) sharing.blend(two_patches(), 2);
+      for (uint32_t knot = 0; knot < kKnots; ++knot)
+        moments[knot].add(luminance(sharing.radiance(knot, 0, 0)));
+    }
+    for (const PixelMoments& of : moments) variances[blended ? 1 : 0] += of.variance();
+  }
+  // The mean of five knots: a fifth of the variance, and what is left of each knot's own.
+  EXPECT_LT(variances[1], 0.4 * variances[0]);
+  EXPECT_GT(variances[1], 0.1 * variances[0]);
+}
+
+TEST(PathSharing, TheMoreOfAPatchsPathsAKnotHasTheMoreItKeepsItsOwn) {
+  const auto radiance_of_first = [](uint32_t paths) {
+    const Rgb weights[kLobeGroups] = {Rgb(1), Rgb(0), Rgb(0)};
+    PathSharing sharing;
+    sharing.begin(2, 1, 1, false);
+    for (uint32_t knot = 0; knot < 2; ++knot) {
+      const Rgb light[] = {Rgb(knot == 0 ? 3.0f : 1.0f)};
+      for (uint32_t i = 0; i < paths; ++i) {
+        sharing.add_weights(knot, weights);
+        sharing.add_path(knot, weights, 1, light);
+      }
+    }
+    sharing.finish({0, 0});
+    sharing.blend({0, 0}, 1);
+    return sharing.radiance(0, 0, 0).x;
+  };
+  EXPECT_LT(radiance_of_first(1), 2.1f);
+  EXPECT_FLOAT_EQ(radiance_of_first(32), 2.5f);
+  EXPECT_GT(radiance_of_first(1000), 2.9f);
 }
 
 }  // namespace

@@ -50,18 +50,25 @@ TEST(ReflectionCache, ARegionHasThePixelsOfThePicture) {
   }
 }
 
-TEST(ReflectionCache, IsUsedFromEightBouncesOn) {
-  GatherParams params;
-  EXPECT_FALSE(params.uses_cache(7));
-  EXPECT_TRUE(params.uses_cache(8));
-  params.cache = true;
-  EXPECT_TRUE(params.uses_cache(1));
-  EXPECT_FALSE(params.uses_cache(0));
-  params.reuse = false;
-  EXPECT_FALSE(params.uses_cache(8));
-  params = {};
-  params.cache = false;
-  EXPECT_FALSE(params.uses_cache(8));
+TEST(ReflectionCache, IsUsedFromTwoBouncesOnAndInCrowdsFromEight) {
+  constexpr size_t kFew = RenderParams::kFewSkins, kMany = kFew + 1;
+  RenderParams params;
+  const auto uses = [&](int bounces, size_t skins) {
+    params.bounces = bounces;
+    return params.uses_cache(skins);
+  };
+  EXPECT_FALSE(uses(1, kFew));
+  EXPECT_TRUE(uses(2, kFew));
+  EXPECT_FALSE(uses(7, kMany));
+  EXPECT_TRUE(uses(8, kMany));
+  params.gather.cache = true;
+  EXPECT_TRUE(uses(1, kMany));
+  EXPECT_FALSE(uses(0, kFew));
+  params.gather.reuse = false;
+  EXPECT_FALSE(uses(8, kFew));
+  params.gather = {};
+  params.gather.cache = false;
+  EXPECT_FALSE(uses(8, kFew));
 }
 
 TEST(ReflectionCache, SavesRaysInPaleFur) {

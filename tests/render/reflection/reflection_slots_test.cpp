@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/reflection/reflection_slots.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint64_t kCells = 3000;
+
+Rgb light_of(uint64_t cell, size_t light) {
+  const auto value = static_cast<float>(cell) + 0.25f * static_cast<float>(light);
+  return {value, -value, 1 / (1 + value)};
+}
+
+/// Cells without larger ones; each has (1 + cell % 12) paths of the same radiance.
+ReflectionTable table_of(size_t lights) {
+  ReflectionTable table(lights);
+  std::vector<Rgb> radiance(lights);
+  for (uint64_t cell = 0; cell < kCells; ++cell) {
+    for (size_t light = 0; light < lights; ++light) radiance[light] = light_of(cell, light);
+    const uint64_t key[] = {mix64(cell + 1)};
+    for (uint64_t path = 0; path < 1 + cell % 12; ++path) table.add(key, 1, radiance);
+  }
+  table.finish(8);
+  return table;
+}
+
+TEST(ReflectionSlots, HaveTheCellsOfTheTable) {
+  for (const size_t lights : {1, 2, 3, 5, 30}) {
+    const ReflectionTable table = table_of(lights);
+    const ReflectionSlots slots(table, lights, 1);
+    EXPECT_EQ(slots.size(), kCells);
+    EXPECT_LE(slots.bytes(), ReflectionSlots::max_bytes(kCells, lights));
+    for (uint64_t cell = 0; cell < kCells; ++cell) {
+      const auto found = slots.find(mix64(cell + 1));
+      ASSERT_TRUE(found) << cell;
+      const Rgb* expected = table.radiance(table.find(mix64(cell + 1)));
+      for (size_t light = 0; light < lights; ++light) EXPECT_EQ(found[light], expected[light]) << cell;
+    }
+    for (uint64_t cell = kCells; cell < 2 * kCells; ++cell) EXPECT_FALSE(slots.find(mix64(cell + 1)));
+  }
+}
+
+TEST(ReflectionSlots, LeaveOutCellsWhoseLargestHasFewPaths) {
+  const ReflectionSlots slots(table_of(2), 2, 8);
+  for (uint64_t cell = 0; cell < kCells; ++cell)
+    EXPECT_EQ(static_cast<bool>(slots.find(mix64(cell + 1))), 1 + cell % 12 >= 8) << cell;
+  ReflectionTable nested(1);
+  const Rgb light[] = {Rgb(1)};
+  const uint64_t left[] = {mix64(1), mix64(10)}, right[] = {mix64(2), mix64(10)},
+                 far[] = {mix64(3), mix64(30)};
+  for (int i = 0; i < 4; ++i) nested.add(left, 1, light);
+  for (int i = 0; i < 4; ++i) nested.add(right, 1, light);
+  for (int i = 0; i < 7; ++i) nested.add(far, 1, light);
+  nested.finish(8);
+  const ReflectionSlots of(nested, 1, 8);
+  EXPECT_EQ(of.size(), 3u);
+  EXPECT_TRUE(of.find(mix64(1)) && of.find(mix64(2)) && of.find(mix64(10)));
+  EXPECT_FALSE(of.find(mix64(3)) || of.find(mix64(30)));
+}
+
+TEST(ReflectionSlots, KeysThatStartInTheLastSlotGoOnInTheFirst) {
+  ReflectionTable table(1);
+  for (uint64_t i = 0; i < 8; ++i) {
+    const uint64_t key[] = {~uint64_t{0} - i};
+    const Rgb light[] = {Rgb(static_cast<float>(i))};
+    table.add(key, 1, light);
+  }
+  table.finish(8);
+  const ReflectionSlots slots(table, 1, 1);
+  for (uint64_t i = 0; i < 8; ++i) {
+    ASSERT_TRUE(slots.find(~uint64_t{0} - i));
+    EXPECT_EQ(slots.find(~uint64_t{0} - i)[0], Rgb(static_cast<float>(i)));
+  }
+  EXPECT_FALSE(slots.find(~uint64_t{0} - 8));
+}
+
+TEST(ReflectionSlots, AnEmptyTableHasNoCells) {
+  const ReflectionSlots slots(ReflectionTable(3), 3, 8);
+  EXPECT_EQ(slots.size(), 0u);
+  EXPECT_FALSE(slots.find(mix64(1)));
+}
+
+}  // namespace
+}  // namespace pelage
