@@ -105,8 +105,9 @@ float Simplification::share(float pixels, float motion, float across, float conf
   return std::min(std::max(share * budget_, min_kept(width / widest)), 1.0f);
 }
 
-Simplification Simplification::distant(float fraction) const {
+Simplification Simplification::distant(float fraction, const WidthFit& fit) const {
   Simplification result = *this;
+  result.fit_ = fit;
   result.fraction_ = fraction;
   result.params_.contrast = false;
   result.params_.width_gain = true;
@@ -183,7 +184,9 @@ float Simplification::gain(float share) const {
   const auto before = std::min(static_cast<size_t>(at), kAreaSteps - 1);
   const float t = at - static_cast<float>(before);
   const float area = area_[before] * (1 - t) + area_[before + 1] * t;
-  return area * static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
+  // Relative to the strands that other rays see.
+  const float fit = fit_.at(share) / fit_.at(std::min(1.0f, share / fraction_));
+  return fit * area * static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
 }
 
 float Simplification::spread(float share) const {
@@ -240,6 +243,7 @@ ContentHash Simplification::hash() const {
     for (const V3f* v : {&pose->position, &pose->right, &pose->up, &pose->forward}) add(v->x, v->y, v->z);
     add(pose->focal_pixels);
   }
+  for (const float factor : fit_.factors) add(factor);
   add(view_.near_distance, view_.lens_diameter, view_.focus_distance);
   return hasher.digest();
 }

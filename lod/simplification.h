@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "lod/lod_view.h"
 #include "lod/simplification_params.h"
+#include "lod/width_fit.h"
 
 namespace pelage {
 
@@ -62,8 +63,8 @@ class Simplification {
 
   /// Returns the simplification of the same coat for rays that see it from afar: `fraction` of the strands
   /// that share() keeps, as far as no widened strand is wider than a quarter of its length. Colours keep
-  /// their contrast.
-  Simplification distant(float fraction) const;
+  /// their contrast. `fit`: factors on gain().
+  Simplification distant(float fraction, const WidthFit& fit = {}) const;
 
   const LodView& view() const { return view_; }
   /// Returns the mean number of strands that cover a point of the skin at full detail; 0 when unknown.
@@ -152,6 +153,7 @@ class Simplification {
   CoatStats stats_;
   float budget_;
   float fraction_ = 1;  // of distant()
+  WidthFit fit_;
   std::array<float, kAreaSteps + 1>
       area_;  // factor by which even spacing reduces gain(); index: sqrt(share) * kAreaSteps
 };

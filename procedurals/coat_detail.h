@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geom/root_detail.h"
+#include "geom/strand_counts.h"
 #include "geom/strand_scale.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
@@ -33,6 +34,9 @@ class CoatDetail {
   /// Returns a number n such that only the first n strands of a leaf can be kept. choose() decides which of
   /// them are kept.
   size_t candidates(size_t leaf) const;
+  /// Returns upper bounds of the kept strands of a leaf and of their data, for one motion key. The bounds are
+  /// tighter than those of the candidates if the priorities are not in the order of the strands.
+  StrandCounts counts(size_t leaf) const;
 
   /// The kept strands of a leaf. All lists have one item per kept strand.
   struct Choice {
@@ -61,11 +65,14 @@ class CoatDetail {
     return priorities_ ? (*priorities_)[follicle] : groom_->priority(follicle);
   }
 
+  void count_kept();
+
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
   std::shared_ptr<const EvenPriorities> priorities_;
-  float first_out_ = 1;  // strands with this priority or a larger one are omitted
+  float first_out_ = 1;             // strands with this priority or a larger one are omitted
+  std::vector<uint32_t> max_kept_;  // by leaf: number of strands below first_out_; empty: all candidates are
   float max_share_ = 1;
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };

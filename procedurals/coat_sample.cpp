@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "geom/closest_point.h"
-#include "geom/tessellation.h"
+#include "procedurals/rest_pose.h"
 
 namespace pelage {
 namespace {
@@ -20,16 +19,7 @@ struct Place {
 
 void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t count, const Workers& workers,
                        const std::function<void(const Strands&, size_t strand)>& visit) {
-  PosedSkin pose;
-  if (rest) pose.keys = {rest, 1};
-  SkinMesh mesh;
-  std::vector<ClosestPointTree> trees;
-  if (groom.needs_closest_point()) {
-    const View view;  // so distant that no face is large
-    mesh = tessellate(pose.keys, view, {}, workers);
-    trees.emplace_back(mesh, 0);
-    pose.trees = trees;
-  }
+  const RestPose pose(groom, rest, workers);
   const FollicleTree& follicles = groom.follicles();
   std::vector<Strands> batches;
   std::vector<Place> places;
@@ -41,7 +31,7 @@ void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t co
     if (sample.empty()) continue;
     const std::vector<float> width(sample.size(), 1.0f);
     const KeptStrands kept{sample, width, {}};
-    batches.push_back(groom.grow(leaf, pose, &kept));
+    batches.push_back(groom.grow(leaf, pose.skin(), &kept));
     for (size_t s = 0; s < sample.size(); ++s)
       places.push_back({batches.back().id(s), batches.size() - 1, s});
   }

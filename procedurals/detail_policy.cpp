@@ -5,13 +5,23 @@
 
 #include "procedurals/coat_stats.h"
 #include "procedurals/root_spacing.h"
+#include "procedurals/width_pilot.h"
 
 namespace pelage {
 namespace {
 
-// Fraction of the strands that secondary rays see from afar, and where "afar" begins, in distances between
-// strands.
-constexpr float kDistantFraction = 1.0f / 4, kNearSpacings = 4;
+// Fraction of the strands that secondary rays see from afar: at most the first, and halves of it down to the
+// second as long as the fit of their widths changes them by no more than a twentieth. Where it would, the
+// wide strands no longer lie like the strands that they replace.
+constexpr float kDistantFraction = 1.0f / 4, kSmallestFraction = 1.0f / 32;
+constexpr float kLeastFit = 0.95f;
+
+/// `fit`: of the widths; empty if unknown.
+float distant_fraction(const std::optional<WidthFit>& fit) {
+  float fraction = kDistantFraction;
+  while (fit && fraction > kSmallestFraction && fit->at(fraction / 2) >= kLeastFit) fraction /= 2;
+  return fraction;
+}
 
 }  // namespace
 
@@ -57,9 +67,24 @@ std::optional<DetailPolicy::Distant> DetailPolicy::distant(const Groom& groom, c
   if (!(between > 0)) return {};
   SimplificationParams full;
   full.size = full.motion_blur = full.depth_of_field = full.back_facing = false;
+  const std::shared_ptr<const EvenPriorities> order = priorities(groom);
+  const std::optional<WidthFit>& fit = width_fit(groom, rest, order.get(), between / skin.scale());
   const Simplification seen =
       reduced ? simplification(groom, rest, skin) : Simplification(full, view_, coat, 1);
-  return Distant{seen.distant(kDistantFraction), kNearSpacings * between, priorities(groom)};
+  const float fraction = distant_fraction(fit);
+  return Distant{seen.distant(fraction, fit.value_or(WidthFit())), near_distance(fraction, between), order};
+}
+
+/// `between`: spacing() at rest.
+const std::optional<WidthFit>& DetailPolicy::width_fit(const Groom& groom, const LimitSurface* rest,
+                                                       const EvenPriorities* priorities, float between) {
+  const auto known = fits_.find(&groom);
+  if (known != fits_.end()) return known->second;
+  if (!groom.grows_on_skin()) rest = nullptr;
+  SimplificationParams full;
+  const Simplification seen(full, view_, stats_.at(&groom), 1);
+  return fits_.emplace(&groom, fit_widths(groom, rest, priorities, seen, between, job_.workers))
+      .first->second;
 }
 
 std::shared_ptr<const EvenPriorities> DetailPolicy::priorities(const Groom& groom) {

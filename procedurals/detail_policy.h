@@ -30,7 +30,7 @@ class DetailPolicy {
   /// A coat as secondary rays see it from afar.
   struct Distant {
     Simplification lod;
-    float from;  ///< distance from the origin of the ray, in scene units: 4 distances between strands
+    float from;  ///< distance from the origin of the ray, in scene units: near_distance()
     /// Null: those of the groom. Other rays see the strands that the random numbers of the groom select, with
     /// or without an approximation for secondary rays.
     std::shared_ptr<const EvenPriorities> priorities;
@@ -49,6 +49,8 @@ class DetailPolicy {
  private:
   CoatStats stats(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
   std::shared_ptr<const EvenPriorities> priorities(const Groom& groom);
+  const std::optional<WidthFit>& width_fit(const Groom& groom, const LimitSurface* rest,
+                                           const EvenPriorities* priorities, float between);
   float spacing(const Groom& groom, const CoatStats& stats, const PosedCharacterSkin& skin);
 
   const SimplificationParams params_;
@@ -56,6 +58,7 @@ class DetailPolicy {
   const bool blurs_;
   const Job& job_;
   std::map<const Groom*, CoatStats> stats_;
+  std::map<const Groom*, std::optional<WidthFit>> fits_;
   std::map<const Groom*, float> spacings_;  // of strands without a skin
   std::map<const Groom*, std::shared_ptr<const EvenPriorities>> priorities_;
   std::map<const Groom*, std::shared_ptr<const CoatDirection>> directions_;

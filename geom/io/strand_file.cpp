@@ -70,14 +70,18 @@ void FileWindows::read_bytes(uint64_t offset, void* to, size_t count) {
   for (Window& window : windows_) {
     if (offset >= window.begin && offset + count <= window.begin + window.bytes.size()) {
       window.used = ++uses_;
+      window.answered_more = true;
       std::memcpy(to, window.bytes.data() + (offset - window.begin), count);
       return;
     }
     if (window.used < oldest->used) oldest = &window;
   }
+  // The strands of a leaf may be anywhere in the file.
+  const size_t size = oldest->answered_more ? kBytes : std::max(kFewBytes, 2 * count);
   oldest->begin = offset;
   oldest->used = ++uses_;
-  oldest->bytes.resize(static_cast<size_t>(std::min<uint64_t>(kBytes, file_.size() - offset)));
+  oldest->answered_more = false;
+  oldest->bytes.resize(static_cast<size_t>(std::min<uint64_t>(size, file_.size() - offset)));
   file_.read_bytes(offset, oldest->bytes.data(), oldest->bytes.size());
   std::memcpy(to, oldest->bytes.data(), count);
 }

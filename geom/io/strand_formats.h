@@ -18,8 +18,8 @@ namespace pelage {
 class AtomicFile;
 
 /// Buffers reads from several arrays of a file, where the offset within each array increases in small steps.
-/// A small read is copied from a window: a block of the file that was read earlier with one system call. For
-/// use by one thread.
+/// A small read is copied from a window: a block of the file that was read earlier with one system call.
+/// Windows are small as long as each of them answers only one read. For use by one thread.
 class FileWindows {
  public:
   explicit FileWindows(const BinaryFile& file) : file_(file) {}
@@ -31,9 +31,10 @@ class FileWindows {
  private:
   // Larger windows would be heap blocks with their own pages (base/heap.h), allocated and freed for every
   // read.
-  static constexpr size_t kBytes = 12 << 10, kWindows = 6;
+  static constexpr size_t kBytes = 12 << 10, kFewBytes = 512, kWindows = 6;
   struct Window {
     uint64_t begin = 0, used = 0;
+    bool answered_more = true;  // than the read for which it was filled
     std::vector<std::byte> bytes;
   };
   const BinaryFile& file_;

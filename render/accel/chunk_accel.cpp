@@ -34,7 +34,7 @@ struct alignas(64) ChunkAccel::Scratch {
   }
   void next_ray() {
     waiting.clear();
-    distant.clear();
+    later.clear();
     if (++ray != 0) return;
     std::fill(seen.begin(), seen.end(), 0u);
     ray = 1;
@@ -43,7 +43,7 @@ struct alignas(64) ChunkAccel::Scratch {
   uint32_t ray = 0;            // number of the current ray
   std::vector<uint32_t> seen;  // by chunk: the last ray that visited it
   std::vector<Waiting> waiting;
-  std::vector<Waiting> distant;  // resident chunks that the ray does not see near its origin
+  std::vector<Waiting> later;  // resident chunks that are visited after the others
 };
 
 ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
@@ -78,7 +78,7 @@ class ChunkAccel::Visits {
 
   void run() {
     scratch_.next_ray();
-    if (visit_near() && visit_distant()) visit_waiting();
+    if (visit_first() && visit_later()) visit_waiting();
     if (sight_.is_limited() && ray_.secondary) ++(met_distant_ ? counts_.rays_far : counts_.rays_near);
   }
 
@@ -115,8 +115,11 @@ class ChunkAccel::Visits {
     return visit_(chunk, sight_.part(seen));
   }
 
-  /// Visits resident chunks that the ray sees from its origin on, and finds the others.
-  bool visit_near() {
+  /// Whether the ray visits other resident chunks first. The nearest hit is more often in a chunk that the
+  /// ray sees near its origin; any blocker is more often beyond, in a tree that is smaller too.
+  bool comes_later(const SightRange& seen) const { return any_ ? seen.to < kInfinity : seen.is_distant(); }
+  /// Visits resident chunks that do not come later, and finds the others.
+  bool visit_first() {
     uint32_t chunk = 0;
     float entry = 0;
     bool goes_on = true;
@@ -138,8 +141,8 @@ class ChunkAccel::Visits {
       if (!reaches(seen, entry)) continue;
       if (!resident) {
         scratch_.waiting.push_back({entry, met, chunk});
-      } else if (seen.from > 0) {
-        scratch_.distant.push_back({entry, met, chunk});
+      } else if (comes_later(seen)) {
+        scratch_.later.push_back({entry, met, chunk});
       } else {
         goes_on = visit_one(chunk, seen);
       }
@@ -147,15 +150,14 @@ class ChunkAccel::Visits {
     counts_.box_tests += walk_.box_tests();
     return goes_on;
   }
-  /// Visits resident chunks that the ray sees from a distance on.
-  bool visit_distant() {
-    auto& distant = scratch_.distant;
+  bool visit_later() {
+    auto& later = scratch_.later;
     if (!any_) {
-      std::sort(distant.begin(), distant.end(), [](const Waiting& a, const Waiting& b) {
+      std::sort(later.begin(), later.end(), [](const Waiting& a, const Waiting& b) {
         return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
       });
     }
-    return std::all_of(distant.begin(), distant.end(), [&](const Waiting& next) {
+    return std::all_of(later.begin(), later.end(), [&](const Waiting& next) {
       return next.entry > far_() || visit_one(next.chunk, sight_.of(next.chunk));
     });
   }

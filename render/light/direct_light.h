@@ -86,10 +86,10 @@ class DirectLight {
   double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                  DirectLightScratch& scratch) const;
 
-  /// Selects candidates as targets of shadow rays: as many as the max count of rays, or fewer on average if
-  /// their factors are below 1. Calls `shadow(target, factor)` for each of them. If nothing blocks the shadow
-  /// ray, the light that arrives is target.arriving * factor. `total`: the result of propose(). `u`: a random
-  /// number in [0, 1).
+  /// Selects candidates as targets of shadow rays, as many as the count of rays; those with larger factors
+  /// more often. Calls `shadow(target, factor)` for each of them. If nothing blocks the shadow ray, the light
+  /// that arrives is target.arriving * factor. `total`: the result of propose(). `u`: a random number in [0,
+  /// 1).
   template <class Shadow>
   void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
 
@@ -180,9 +180,12 @@ template <class Shadow>
 void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
                          const Shadow& shadow) const {
   // Points are drawn in proportion to the unoccluded light that they contribute, times the learned factor.
-  // The step does not depend on the factors, so points that are probably blocked also get fewer rays in
-  // total.
-  SystematicChoice choice(total / rays_, u);
+  // The step makes up for the factors: fewer rays would add more noise than they save time.
+  if (!(total > 0)) return;
+  double likely = 0;
+  for (const LightPoint& point : scratch.points) likely += double{point.luminance * point.factor};
+  if (!(likely > 0)) return;
+  SystematicChoice choice(likely / rays_, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
   for (const LightPoint& point : scratch.points) {
     const float mass = point.luminance * point.factor;

@@ -70,8 +70,8 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
          .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off"});
   s.key("learned_visibility", &RenderParams::learned_visibility,
         {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
-                 "visible from where; shadow rays to parts that are probably hidden are then traced less "
-                 "often, with the same mean of the picture. `reject`: never traced if all pilot rays "
+                 "visible from where; shadow rays then choose parts that are probably hidden less "
+                 "often, with the same mean of the picture. `reject`: never chosen if all pilot rays "
                  "missed, which darkens the picture. With `integrator: gather`, only indirect paths use "
                  "it"});
   s.key("screen_door", &RenderParams::screen_door,
@@ -79,7 +79,7 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
                  "whose width is width times opacity. These rays then end at the first strand, which saves "
                  "time; the mean light stays the same. Camera rays still see semi-transparent strands"});
   s.key("occlusion_detail", &RenderParams::occlusion_detail,
-        {.help = "Beyond four distances between strands from their origin, shadow rays and indirect rays see "
+        {.help = "From a distance on that depends on the coat, shadow rays and indirect rays see "
                  "a fraction of the strands, widened to cover about as much (approximate). Camera rays still "
                  "see all strands"});
 }

@@ -14,6 +14,17 @@
 
 namespace pelage {
 
+/// A groom without operators of the strands of a file. The ledger must outlive the groom.
+inline std::shared_ptr<const Groom> groom_of(MemoryLedger& ledger, StrandArrays strands, int leaf_strands) {
+  const TemporaryFolder folder;
+  GroomParams params;
+  params.strands_file = {folder.path() / "square.hair", {}};
+  params.leaf_strands = leaf_strands;
+  write_strands(params.strands_file.path, Strands(std::move(strands)));
+  TextureLibrary textures(ledger);
+  return Groom::create("square", params, nullptr, textures, QuietJob(1, ledger));
+}
+
 /// Short strands at random places of a square with sides of 2. The ledger must outlive the groom.
 inline std::shared_ptr<const Groom> grown_on_a_square(MemoryLedger& ledger, uint32_t count,
                                                       int leaf_strands) {
@@ -28,13 +39,7 @@ inline std::shared_ptr<const Groom> grown_on_a_square(MemoryLedger& ledger, uint
     a.first_point.push_back(4 * (s + 1));
     a.ids.push_back(s);
   }
-  const TemporaryFolder folder;
-  GroomParams params;
-  params.strands_file = {folder.path() / "square.hair", {}};
-  params.leaf_strands = leaf_strands;
-  write_strands(params.strands_file.path, Strands(std::move(a)));
-  TextureLibrary textures(ledger);
-  return Groom::create("square", params, nullptr, textures, QuietJob(1, ledger));
+  return groom_of(ledger, std::move(a), leaf_strands);
 }
 
 }  // namespace pelage
