@@ -112,7 +112,7 @@ double light_of_last_bounces(const std::vector<Run>& runs, const Run& run) {
   return before ? run.light - before->light : run.light;
 }
 
-Table table_of(const std::vector<Run>& runs, const std::vector<Outcome>& outcomes) {
+Table bounce_table(const std::vector<Run>& runs, const std::vector<Outcome>& outcomes) {
   Table table = outcome_table(outcomes);
   const auto add = [&](const char* key, const char* title, Quantity quantity, const auto& value) {
     add_column(table, {key, title, quantity}, outcomes, [&](const Outcome& o) -> Cell {
@@ -148,7 +148,7 @@ Table table_of(const std::vector<Run>& runs, const std::vector<Outcome>& outcome
   return table;
 }
 
-LinePlot plot_of(const std::vector<Run>& runs) {
+LinePlot bounce_plot(const std::vector<Run>& runs) {
   LinePlot plot;
   plot.caption = "CPU seconds by bounces.";
   plot.x = {"bounces + 1", Quantity::kCount, true};
@@ -175,7 +175,7 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
   for (const Run& run : sweep.runs) measured.outcomes.push_back(run.outcome);
   Report& report = measured.report;
   report.title = "Bounces";
-  report.data = table_of(sweep.runs, measured.outcomes);
+  report.data = bounce_table(sweep.runs, measured.outcomes);
   report.sections.push_back(
       {"Time",
        {Paragraph{
@@ -184,7 +184,7 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
                         counted(samples, "sample"))},
         select(report.data, {"variant", "cpu_s", "of_one_bounce", "of_path"},
                "CPU time; relative to one bounce, and to path with as many bounces."),
-        plot_of(sweep.runs)}});
+        bounce_plot(sweep.runs)}});
   report.sections.push_back(
       {"Light",
        {select(report.data, {"variant", "light", "light_of_last_bounces", "light_off"},

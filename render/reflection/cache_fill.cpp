@@ -26,8 +26,13 @@ constexpr double kAtOnce = 4;  // paths per pixel that a tile adds to a table at
 /// are still small on the animal.
 constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells = size_t{1} << 20;
 
+/// More samples add no more paths: cells have enough, and the picture must begin some time.
+constexpr int kMostSamples = 1024;
+/// The part of `render.time_limit` after which cells must do with the paths that they have.
+constexpr double kTimeShare = 0.25;
+
 double paths_per_pixel(const RenderParams& render) {
-  return double{render.gather.cache_paths} * render.samples;
+  return double{render.gather.cache_paths} * std::min(render.samples, kMostSamples);
 }
 
 /// How many times tiles are visited, so that the tables of a batch stay small.
@@ -117,8 +122,9 @@ PassEnd CacheFill::trace_batch(const std::vector<Tile>& batch, uint32_t round, c
   std::map<int, ReflectionTable> tables;
   for (const Tile& tile : batch) tables.emplace(place(tile), ReflectionTable(scene_.lights.size()));
   const ReflectionPaths::Share share{round, paths_per_pixel(scene_.render) / rounds(scene_.render)};
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const PassEnd end = trace_tiles(batch, job, clock, kNever, [&](const Tile& tile, int worker) {
+  const float limit_s = scene_.render.time_limit;
+  const double end_s = limit_s > 0 ? kTimeShare * limit_s : std::numeric_limits<double>::infinity();
+  const PassEnd end = trace_tiles(batch, job, clock, end_s, [&](const Tile& tile, int worker) {
     ReflectionPaths::Scratch& scratch = scratch_[static_cast<size_t>(worker)];
     const TileTimer timer(scratch.costs);
     scratch.thread.worker = worker;
