@@ -119,7 +119,7 @@ class Measure(unittest.TestCase):
 
     def test_bounces(self):
         self.measure("bounces", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "8",
-                     "--set", "image.width=32", "--set", "image.height=24", "--set", "render.gather.cache_paths=8")
+                     "--set", "image.width=32", "--set", "image.height=24", "--set", "render.gather.cache_paths=64")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         methods = "path", "gather, cache: false", "gather, cache: true"
         counts = ["0 bounces", "1 bounce"] + [f"{n} bounces" for n in (2, 4, 8, 16, 32, 64)]
