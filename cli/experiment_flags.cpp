@@ -37,6 +37,8 @@ Experiment parse_experiment(const std::string& text) {
 }
 
 void check_parts(Experiment experiment, const std::vector<std::string>& parts) {
+  if (!parts.empty() && experiment != Experiment::kLod && experiment != Experiment::kShading)
+    fail("--parts: only lod and shading have parts");
   std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
   if (experiment == Experiment::kShading) known.assign(std::begin(kShadingParts), std::end(kShadingParts));
   for (const std::string& part : parts) {

@@ -119,10 +119,25 @@ class Inflater {
     while (stream_.avail_out > 0) {
       if (stream_.avail_in == 0) fill();
       const int state = ::inflate(&stream_, Z_NO_FLUSH);
-      if (state == Z_STREAM_END && stream_.avail_out > 0) throw Damage("is truncated");
-      if (state != Z_OK && state != Z_STREAM_END)
-        throw Damage("is damaged: its pixels cannot be decompressed");
+      ended_ = state == Z_STREAM_END;
+      if (ended_ && stream_.avail_out > 0) throw Damage("is truncated");
+      if (state != Z_OK && !ended_) throw Damage("is damaged: its pixels cannot be decompressed");
     }
+  }
+
+  /// Checks the checksums, after all bytes were read. Ignores further bytes.
+  void finish() {
+    unsigned char more = 0;
+    stream_.next_out = &more;
+    stream_.avail_out = 1;
+    while (!ended_ && stream_.avail_out > 0) {
+      if (stream_.avail_in == 0) fill();
+      const int state = ::inflate(&stream_, Z_NO_FLUSH);
+      ended_ = state == Z_STREAM_END;
+      if (state != Z_OK && !ended_) throw Damage("is damaged: its pixels cannot be decompressed");
+    }
+    if (chunks_.left() == 0 && !chunks_.is_intact())
+      throw Damage("is damaged: a checksum of its pixels is wrong");
   }
 
  private:
@@ -140,6 +155,7 @@ class Inflater {
   Chunks& chunks_;
   std::vector<unsigned char> input_;
   z_stream stream_{};
+  bool ended_ = false;
 };
 
 unsigned char paeth(int left, int up, int corner) {
@@ -170,6 +186,7 @@ void read_png_rows(Chunks& chunks, const TexelLayout& layout, size_t strip_rows,
   Inflater inflater(chunks);
   std::vector<unsigned char> row(layout.row_bytes()), above(row.size());
   std::vector<std::byte> strip;
+  strip.reserve(strip_rows * row.size());
   const auto height = static_cast<size_t>(layout.height);
   for (size_t y = 0; y < height; ++y) {
     unsigned char filter = 0;
@@ -186,6 +203,7 @@ void read_png_rows(Chunks& chunks, const TexelLayout& layout, size_t strip_rows,
     sink.rows(strip.data(), static_cast<int>(strip.size() / row.size()));
     strip.clear();
   }
+  inflater.finish();
 }
 
 }  // namespace

@@ -83,8 +83,7 @@ const std::optional<WidthFit>& DetailPolicy::width_fit(const Groom& groom, const
   if (!groom.grows_on_skin()) rest = nullptr;
   SimplificationParams full;
   const Simplification seen(full, view_, stats_.at(&groom), 1);
-  return fits_.emplace(&groom, fit_widths(groom, rest, priorities, seen, between, job_.workers))
-      .first->second;
+  return fits_.emplace(&groom, fit_widths(groom, rest, priorities, seen, between, job_)).first->second;
 }
 
 std::shared_ptr<const EvenPriorities> DetailPolicy::priorities(const Groom& groom) {

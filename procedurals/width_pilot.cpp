@@ -21,9 +21,11 @@ namespace {
 
 constexpr size_t kPatches = 16, kDirections = 8, kPerStrand = 2;
 constexpr float kStrandsAround = 4000;  // of a pilot root, on average
+constexpr float kMostAround = 16000;    // of any pilot root, roughly
+constexpr uint64_t kCounted = 16;       // one strand in so many is counted first
 constexpr size_t kBins = 512;
 constexpr float kWidest = 2;       // largest factor
-constexpr int64_t kFewest = 1000;  // rays that pass, and rays that do not
+constexpr int64_t kFewest = 1000;  // weight of rays that pass, and of rays that do not
 constexpr float kSteepest = 0.6f;  // WidthFit
 constexpr uint64_t kUse = random_use("width pilot");
 
@@ -88,12 +90,25 @@ std::vector<size_t> pilot_roots(const Groom& groom) {
   return all;
 }
 
+/// `radius`, or a smaller one where strands are much denser than on average, so that a patch stays small.
+float radius_around(const Groom& groom, const RestPose& rest, const V3f& middle, float radius) {
+  const FollicleTree& follicles = groom.follicles();
+  float around = 0;
+  for (size_t f = 0; f < follicles.size(); ++f) {
+    if (hash64(kUse, follicles.id(f)) % kCounted != 0) continue;
+    if ((groom.root(f, rest.skin(), 0).position - middle).length() < radius) around += kCounted;
+  }
+  return around > kMostAround ? radius * std::sqrt(kMostAround / around) : radius;
+}
+
 Patch make_patch(const Groom& groom, const RestPose& rest, const EvenPriorities* priorities, size_t centre,
-                 float radius) {
+                 float mean_radius, const Job& job) {
   const FollicleTree& follicles = groom.follicles();
   const V3f middle = groom.root(centre, rest.skin(), 0).position;
+  const float radius = radius_around(groom, rest, middle, mean_radius);
   Patch patch;
   for (size_t leaf = 0; leaf < follicles.leaves().size(); ++leaf) {
+    job.check_stop();
     const FollicleTree::Leaf& range = follicles.leaves()[leaf];
     std::vector<uint32_t> around;
     std::vector<float> distances;
@@ -254,14 +269,14 @@ float near_distance(float share, float spacing) { return 2 * spacing / std::sqrt
 
 std::optional<WidthFit> fit_widths(const Groom& groom, const LimitSurface* rest,
                                    const EvenPriorities* priorities, const Simplification& seen,
-                                   float spacing, const Workers& workers) {
-  const RestPose pose(groom, rest, workers);
+                                   float spacing, const Job& job) {
+  const RestPose pose(groom, rest, job.workers);
   const float radius = spacing * std::sqrt(kStrandsAround / std::numbers::pi_v<float>);
   const std::vector<size_t> roots = pilot_roots(groom);
   std::vector<Tallies> of_patch(roots.size());
-  workers.for_each(roots.size(), 1, [&](WorkRange range) {
+  job.for_each(roots.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)
-      of_patch[i] = count_patch(make_patch(groom, pose, priorities, roots[i], radius), i, seen, spacing);
+      of_patch[i] = count_patch(make_patch(groom, pose, priorities, roots[i], radius, job), i, seen, spacing);
   });
   Tallies sum;
   for (const Tallies& tallies : of_patch) {

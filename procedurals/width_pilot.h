@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/job.h"
 #include "geom/limit_surface.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
@@ -11,8 +12,6 @@
 
 namespace pelage {
 
-class Workers;
-
 /// Distance from the origin of a secondary ray from which on the ray sees the fraction `share` of the
 /// strands: twice the distance between these strands. `spacing`: distance between all strands.
 float near_distance(float share, float spacing);
@@ -20,19 +19,19 @@ float near_distance(float share, float spacing);
 /// Returns the factors on the widths of the kept strands of a groom with which as many rays pass the kept
 /// strands as pass all strands.
 ///
-/// Pilot rays start on strands around a few roots, in directions away from the skin, and
-/// are tested against the strands around these roots at rest. Only the part from near_distance() on counts,
-/// and only rays that no strand blocks before. For each share, each ray has a smallest factor at which a kept
-/// strand blocks it; the result is the factor that is no larger than this for as many rays as all strands let
-/// pass. A ray counts as often as rays of other directions leave the coat from its origin: light matters
-/// where it is seen from outside.
+/// Pilot rays start on strands around a few roots, in directions away from the skin, and are tested against
+/// the strands around these roots at rest. Only the part from near_distance() on counts, and only rays that
+/// no strand blocks before. For each share, each ray has a smallest factor at which a kept strand blocks it;
+/// the result is the factor that is no larger than this for as many rays as all strands let pass. A ray
+/// counts as often as rays of other directions leave the coat from its origin: light matters where it is seen
+/// from outside.
 ///
 /// `seen`: the coat at full detail, for the widths before the fit. `spacing`: distance between its strands.
-/// `rest`: the skin at rest; null for a groom
-/// without a skin. `priorities`: null for those of the groom. The result does not depend on how the groom is
-/// divided into leaves. Empty if too few rays are blocked or pass.
+/// `rest`: the skin at rest; null for a groom without a skin. `priorities`: null for those of the groom. The
+/// result does not depend on how the groom is divided into leaves. Empty if too few rays are blocked or pass.
+/// Each thread needs some MiB for strands. Throws Error (kStopped) if the user has asked to stop.
 std::optional<WidthFit> fit_widths(const Groom& groom, const LimitSurface* rest,
                                    const EvenPriorities* priorities, const Simplification& seen,
-                                   float spacing, const Workers& workers);
+                                   float spacing, const Job& job);
 
 }  // namespace pelage

@@ -96,7 +96,7 @@ class Sweep {
   VariantRunner runner_;
 };
 
-/// The run of the same method with the previous count of bounces, or of `path` with the same count.
+/// The run of a method with this count of bounces; null if there is none.
 const Run* find(const std::vector<Run>& runs, const Method* method, int bounces) {
   for (const Run& run : runs) {
     if (run.method == method && run.bounces == bounces) return &run;

@@ -33,7 +33,8 @@ struct KnotKey {
 /// seen by less than one sample are assigned to the cells of their coat instead.
 ///
 /// The knots of a coat whose strands grow in the same cube of the skin (CoatCells::patch()) are in one patch
-/// if they are at the same eighth of a strand or, on longer strands, within CoatCells::kPatchPixels along it.
+/// if they are at the same eighth of a strand or, on strands with more than 16 knots, at the
+/// same pair of knots.
 ///
 /// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone
 /// within the same tile of the picture, about the same fraction of a light arrives.

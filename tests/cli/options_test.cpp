@@ -224,6 +224,8 @@ TEST(Options, OfMeasure) {
   EXPECT_NE(problem({"measure", "shading", "s", "--reference-samples", "0"}), "");
   EXPECT_EQ(problem({"measure", "shading", "s", "--parts", "gatehr"}),
             "--parts: unknown part 'gatehr'; did you mean 'gather'?");
+  EXPECT_EQ(problem({"measure", "bounces", "s", "--parts", "gather"}),
+            "--parts: only lod and shading have parts");
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
 }

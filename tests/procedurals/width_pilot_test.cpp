@@ -35,10 +35,11 @@ std::shared_ptr<const Groom> meadow(MemoryLedger& ledger, uint32_t together, int
 
 std::optional<WidthFit> fit(const Groom& groom, MemoryLedger& ledger, int threads, bool even = true) {
   const Workers workers(threads);
+  NoProgress progress;
   const EvenPriorities priorities(groom, ledger);
   const Simplification seen({}, LodView(), coat_stats(groom, nullptr, workers), 1);
   return fit_widths(groom, nullptr, even ? &priorities : nullptr, seen, 2 / std::sqrt(float(kStrands)),
-                    workers);
+                    Job{workers, ledger, progress});
 }
 
 TEST(WidthPilot, KeepsTheWidthsOfIndependentStrandsAndNarrowsThoseOfClumps) {
