@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kRadius = 0.02f;
 
-struct View {
+struct PointSetup {
   V3f tangent, wo;
   float h;
   FibreFrame frame() const { return FibreFrame(tangent, wo); }
@@ -22,14 +22,14 @@ struct View {
   V3f normal() const { return frame().to_world({0, std::sqrt(1 - h * h), -h}); }
 };
 
-View view(uint32_t i) {
+PointSetup view(uint32_t i) {
   SampleStream stream(5, i, 0, 0);
-  View v{uniform_direction(stream.next2d()), uniform_direction(stream.next2d()), 0};
+  PointSetup v{uniform_direction(stream.next2d()), uniform_direction(stream.next2d()), 0};
   v.h = 1.98f * stream.next1d() - 0.99f;
   return v;
 }
 
-ScatterPoint point(const View& v, const V3f& axis) {
+ScatterPoint point(const PointSetup& v, const V3f& axis) {
   FibrePoint at;
   at.tangents.fill(v.tangent);
   at.wo = v.wo;
@@ -43,7 +43,7 @@ V3f across(const V3f& v, const V3f& tangent) { return (v - v.dot(tangent) * tang
 
 TEST(ScatterPoint, ReflectedLightLeavesWhereItMetTheFibre) {
   for (uint32_t i = 0; i < 200; ++i) {
-    const View v = view(i);
+    const PointSetup v = view(i);
     const V3f n = v.normal(), wi = (2 * v.wo.dot(n)) * n - v.wo;
     EXPECT_LT((point(v, V3f(0)).start(wi) - kRadius * n).length(), 0.004f * kRadius) << i;
   }
@@ -52,7 +52,7 @@ TEST(ScatterPoint, ReflectedLightLeavesWhereItMetTheFibre) {
 /// The ways of refracted light through a circle, by angles at its centre.
 TEST(ScatterPoint, LightThatWentInLeavesWhereRefractionSendsIt) {
   for (uint32_t i = 0; i < 200; ++i) {
-    const View v = view(i);
+    const PointSetup v = view(i);
     const FibreFrame frame = v.frame();
     const FibreCrossing crossing(1.55f, 0, frame.sin_theta_o(), frame.cos_theta_o(), v.h);
     const float gamma_t = std::asin(crossing.sin_gamma_t);
@@ -69,7 +69,7 @@ TEST(ScatterPoint, LightThatWentInLeavesWhereRefractionSendsIt) {
 TEST(ScatterPoint, RaysBeginOutsideAndGoOut) {
   for (const V3f& axis : {V3f(0), V3f(40, -7, 90)}) {
     for (uint32_t i = 0; i < 500; ++i) {
-      const View v = view(i);
+      const PointSetup v = view(i);
       SampleStream stream(6, i, 0, 0);
       const V3f wi = uniform_direction(stream.next2d());
       const V3f from_axis = point(v, axis).start(wi) - axis;
