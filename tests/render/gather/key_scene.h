@@ -20,10 +20,10 @@ inline Camera camera() {
   return {params, 1, kSize, kSize};
 }
 
-/// Four coats without strands, seen by camera().
+/// Five coats without strands, seen by camera().
 inline RenderScene make(const GatherParams& gather) {
   RenderScene scene{{}, {}, {}, LightSet({}), camera(), {}, {}};
-  scene.fur.resize(4);
+  scene.fur.resize(5);
   scene.render.gather = gather;
   return scene;
 }
