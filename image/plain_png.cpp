@@ -62,7 +62,7 @@ class Chunks {
     left_ -= static_cast<uint32_t>(count);
     return count;
   }
-  /// Reads the checksum after all data were read, and returns whether it is that of the data.
+  /// Reads the checksum that follows the data, and returns whether it matches. Call after reading all data.
   bool is_intact() {
     std::array<unsigned char, 4> stored{};
     return left_ == 0 && read(stored.data(), stored.size()) && big_endian(stored.data()) == checksum_;

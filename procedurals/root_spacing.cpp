@@ -9,26 +9,12 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "procedurals/spread_follicles.h"
 
 namespace pelage {
 namespace {
 
-constexpr size_t kSample = 32, kNeighbours = 8;
-
-/// The follicles with the smallest priorities, which are random numbers of their ids.
-std::vector<size_t> sample(const Groom& groom) {
-  const FollicleTree& follicles = groom.follicles();
-  std::vector<size_t> all(follicles.size());
-  for (size_t f = 0; f < all.size(); ++f) all[f] = f;
-  const size_t count = std::min(kSample, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
-                    [&](size_t a, size_t b) {
-                      const float of_a = groom.priority(a), of_b = groom.priority(b);
-                      return of_a != of_b ? of_a < of_b : follicles.id(a) < follicles.id(b);
-                    });
-  all.resize(count);
-  return all;
-}
+constexpr size_t kSampledRoots = 32, kNeighbours = 8;
 
 /// Returns the squared distance to the kNeighbours-th nearest other root.
 double distance2_of_last(const Groom& groom, const PosedSkin& rest, size_t follicle) {
@@ -50,7 +36,7 @@ double distance2_of_last(const Groom& groom, const PosedSkin& rest, size_t folli
 float root_spacing(const Groom& groom, const Workers& workers) {
   if (groom.follicles().size() <= kNeighbours) return 0;
   const PosedSkin rest;
-  const std::vector<size_t> roots = sample(groom);
+  const std::vector<size_t> roots = spread_follicles(groom, kSampledRoots);
   std::vector<double> areas(roots.size());
   workers.for_each(roots.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)

@@ -12,35 +12,21 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "geom/curve.h"
 #include "procedurals/parallel_rays.h"
+#include "procedurals/pilot_patch.h"
 #include "procedurals/rest_pose.h"
+#include "procedurals/spread_follicles.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kPatches = 16, kDirections = 8, kPerStrand = 2;
 constexpr float kStrandsAround = 4000;  // of a pilot root, on average
-constexpr float kMostAround = 16000;    // of any pilot root, roughly
-constexpr uint64_t kCounted = 16;       // one strand in so many is counted first
 constexpr size_t kBins = 512;
 constexpr float kWidest = 2;       // largest factor
 constexpr int64_t kFewest = 1000;  // weight of rays that pass, and of rays that do not
 constexpr float kSteepest = 0.6f;  // WidthFit
 constexpr uint64_t kUse = random_use("width pilot");
-
-/// The strands around one root.
-struct Patch {
-  std::vector<StrandPiece> pieces;
-  struct Strand {
-    uint64_t id;
-    float priority;
-    V3f up;               // the normal of the skin; without a skin, from the root to the tip
-    bool starts;          // whether rays start on it
-    uint32_t begin, end;  // pieces
-  };
-  std::vector<Strand> strands;
-};
 
 /// Sums of the weights of rays at one share.
 struct Tally {
@@ -58,82 +44,6 @@ struct Tally {
 /// At the shares of WidthFit.
 using Tallies = std::array<Tally, WidthFit::kQuarterings + 1>;
 
-/// `normal`: 0 without a skin.
-void add_strand(const Strands& strands, size_t s, const V3f& normal, float priority, bool starts,
-                Patch& patch) {
-  const auto number = static_cast<uint32_t>(patch.strands.size());
-  const auto begin = static_cast<uint32_t>(patch.pieces.size());
-  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(s));
-  for (uint32_t segment = 0; segment < segments; ++segment) {
-    const CubicSegment c = bezier_segment(strands, s, segment);
-    patch.pieces.push_back({c.p[0], c.p[3], c.r[0], c.r[3], number, segment == 0, segment + 1 == segments});
-  }
-  const auto end = static_cast<uint32_t>(patch.pieces.size());
-  if (end == begin) return;
-  const V3f along = patch.pieces.back().end - patch.pieces[begin].begin;
-  const V3f up = normal.length2() > 0 ? normal : along;
-  patch.strands.push_back({strands.id(s), priority, up, starts, begin, end});
-}
-
-/// Roots that are spread over the groom: those of the smallest priorities.
-std::vector<size_t> pilot_roots(const Groom& groom) {
-  const FollicleTree& follicles = groom.follicles();
-  std::vector<size_t> all(follicles.size());
-  for (size_t f = 0; f < all.size(); ++f) all[f] = f;
-  const size_t count = std::min(kPatches, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
-                    [&](size_t a, size_t b) {
-                      const float of_a = groom.priority(a), of_b = groom.priority(b);
-                      return of_a != of_b ? of_a < of_b : follicles.id(a) < follicles.id(b);
-                    });
-  all.resize(count);
-  return all;
-}
-
-/// `radius`, or a smaller one where strands are much denser than on average, so that a patch stays small.
-float radius_around(const Groom& groom, const RestPose& rest, const V3f& middle, float radius) {
-  const FollicleTree& follicles = groom.follicles();
-  float around = 0;
-  for (size_t f = 0; f < follicles.size(); ++f) {
-    if (hash64(kUse, follicles.id(f)) % kCounted != 0) continue;
-    if ((groom.root(f, rest.skin(), 0).position - middle).length() < radius) around += kCounted;
-  }
-  return around > kMostAround ? radius * std::sqrt(kMostAround / around) : radius;
-}
-
-Patch make_patch(const Groom& groom, const RestPose& rest, const EvenPriorities* priorities, size_t centre,
-                 float mean_radius, const Job& job) {
-  const FollicleTree& follicles = groom.follicles();
-  const V3f middle = groom.root(centre, rest.skin(), 0).position;
-  const float radius = radius_around(groom, rest, middle, mean_radius);
-  Patch patch;
-  for (size_t leaf = 0; leaf < follicles.leaves().size(); ++leaf) {
-    job.check_stop();
-    const FollicleTree::Leaf& range = follicles.leaves()[leaf];
-    std::vector<uint32_t> around;
-    std::vector<float> distances;
-    std::vector<V3f> normals;
-    for (uint32_t f = range.begin; f < range.end; ++f) {
-      const SurfacePoint root = groom.root(f, rest.skin(), 0);
-      const float distance = (root.position - middle).length();
-      if (!(distance < radius)) continue;
-      around.push_back(f - range.begin);
-      distances.push_back(distance);
-      normals.push_back(root.du.cross(root.dv));
-    }
-    if (around.empty()) continue;
-    const std::vector<float> width(around.size(), 1.0f);
-    const KeptStrands kept{around, width, {}};
-    const Strands strands = groom.grow(leaf, rest.skin(), &kept);
-    for (size_t s = 0; s < strands.strand_count(); ++s) {
-      const size_t f = range.begin + around[s];
-      add_strand(strands, s, normals[s], priorities ? (*priorities)[f] : groom.priority(f),
-                 distances[s] < 0.5f * radius, patch);
-    }
-  }
-  return patch;
-}
-
 V3f direction_of(size_t patch, size_t index) {
   // Evenly spread over the sphere, turned at random.
   const double z = 1 - (2 * static_cast<double>(index) + 1) / kDirections;
@@ -150,10 +60,10 @@ struct Origin {
   uint32_t strand;  // in the patch
 };
 
-std::vector<Origin> origins_of(const Patch& patch) {
+std::vector<Origin> origins_of(const PilotPatch& patch) {
   std::vector<Origin> origins;
   for (uint32_t s = 0; s < patch.strands.size(); ++s) {
-    const Patch::Strand& strand = patch.strands[s];
+    const PilotPatch::Strand& strand = patch.strands[s];
     for (uint64_t k = 0; strand.starts && k < kPerStrand; ++k) {
       const float at = unit_float(hash64(strand.id, k, kUse)) * static_cast<float>(strand.end - strand.begin);
       const auto piece = std::min(static_cast<uint32_t>(at), strand.end - strand.begin - 1);
@@ -167,7 +77,7 @@ std::vector<Origin> origins_of(const Patch& patch) {
 /// The rays of one direction.
 class Pilots {
  public:
-  Pilots(const Patch& patch, std::span<const Origin> origins, const V3f& direction) : patch_(patch) {
+  Pilots(const PilotPatch& patch, std::span<const Origin> origins, const V3f& direction) : patch_(patch) {
     std::vector<V3f> from;
     for (uint32_t o = 0; o < origins.size(); ++o) {
       if (!(patch.strands[origins[o].strand].up.dot(direction) > 0)) continue;
@@ -188,7 +98,7 @@ class Pilots {
   void count(const Simplification& seen, float share, float near, std::span<const int32_t> weights,
              Tally& tally) {
     std::vector<float> from(own_.size(), kWidest);
-    for (const Patch::Strand& strand : patch_.strands) {
+    for (const PilotPatch::Strand& strand : patch_.strands) {
       const float width = seen.width_factor(share, strand.priority);
       if (!(width > 0)) continue;
       for (uint32_t p = strand.begin; p < strand.end; ++p) {
@@ -227,14 +137,14 @@ class Pilots {
     }
   }
 
-  const Patch& patch_;
+  const PilotPatch& patch_;
   std::vector<uint32_t> origin_, own_;  // by ray: index of its origin, and its strand
   std::optional<ParallelRays> rays_;
   std::vector<float> nearest_, farthest_;  // by ray: distances of hits; the nearest is not on its own strand
   std::vector<ParallelRays::Pass> passes_;
 };
 
-Tallies count_patch(const Patch& patch, size_t number, const Simplification& seen, float spacing) {
+Tallies count_patch(const PilotPatch& patch, size_t number, const Simplification& seen, float spacing) {
   const std::vector<Origin> origins = origins_of(patch);
   std::vector<Pilots> pilots;
   std::vector<int32_t> weights(origins.size(), 0);
@@ -272,11 +182,12 @@ std::optional<WidthFit> fit_widths(const Groom& groom, const LimitSurface* rest,
                                    float spacing, const Job& job) {
   const RestPose pose(groom, rest, job.workers);
   const float radius = spacing * std::sqrt(kStrandsAround / std::numbers::pi_v<float>);
-  const std::vector<size_t> roots = pilot_roots(groom);
+  const std::vector<size_t> roots = spread_follicles(groom, kPatches);
   std::vector<Tallies> of_patch(roots.size());
   job.for_each(roots.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)
-      of_patch[i] = count_patch(make_patch(groom, pose, priorities, roots[i], radius, job), i, seen, spacing);
+      of_patch[i] =
+          count_patch(strands_around(groom, pose, priorities, roots[i], radius, job), i, seen, spacing);
   });
   Tallies sum;
   for (const Tallies& tallies : of_patch) {

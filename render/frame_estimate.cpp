@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "base/heap.h"
@@ -20,6 +20,7 @@
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_window.h"
 #include "render/gather/gather_loop.h"
+#include "render/weighted_selection.h"
 
 namespace pelage {
 namespace {
@@ -27,7 +28,7 @@ namespace {
 // Code, tables of libraries and stacks that a render touches after the scene has been read: about 5 MiB in a
 // picture of a few strands, and more with all kinds of lights and maps.
 constexpr int64_t kLibraries = int64_t{8} << 20, kThread = int64_t{2} << 20;
-constexpr int kSampledFur = 24, kSampledSkins = 8;  // chunks to grow
+constexpr size_t kSampledFur = 24, kSampledSkins = 8;  // chunks to grow
 // Rough CPU seconds: of a channel of a pixel in a file, of a camera sample, and of each bounce after it.
 constexpr double kWrittenValue_s = 1e-7;
 // Rays per chunk for which two thirds of the memory of all chunks is needed: half as many rays as were
@@ -46,51 +47,28 @@ double weight(const ChunkCounts& n) {
   return static_cast<double>(n.points * static_cast<size_t>(n.motion_keys) + 2 * n.strands + n.triangles);
 }
 
-/// A chunk that was selected, once or several times.
-struct Selected {
-  uint32_t chunk = 0;
-  int times = 0;
-};
-
-/// Selects chunks with probabilities proportional to their weights: at even steps of the summed weight.
-std::vector<Selected> select(const std::vector<double>& weights, const Kind& kind, double all, int count) {
-  std::vector<Selected> chosen;
-  double sum = 0;
-  int step = 0;
-  for (uint32_t chunk = kind.first; chunk < kind.last; ++chunk) {
-    sum += weights[chunk];
-    int times = 0;
-    for (; step < count && sum > all * (step + 0.5) / count; ++step) ++times;
-    if (times > 0) chosen.push_back({chunk, times});
-  }
-  return chosen;
-}
-
-/// Grows a selection of chunks. With selection probabilities proportional to weights, the mean of
-/// bytes / weight times the sum of the weights is an unbiased estimate of the bytes of all chunks
-/// [HansenHurwitz43].
-void sample(const ResidentChunks& chunks, const std::vector<double>& weights, int count, const Job& job,
+/// Grows a selection of chunks, and adds what all chunks of their kind need.
+void sample(const ResidentChunks& chunks, const std::vector<double>& weights, size_t count, const Job& job,
             Kind& kind) {
-  const double all = std::accumulate(weights.begin() + kind.first, weights.begin() + kind.last, 0.0);
-  const std::vector<Selected> chosen = select(weights, kind, all, count);
+  const std::span of_kind(weights.data() + kind.first, kind.last - kind.first);
+  const std::vector<SelectedItem> chosen = select_by_weight(of_kind, count);
   std::vector<Kind> found(chosen.size());
   job.for_each(chosen.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) {
       const double began = thread_cpu_seconds();
-      chunks.visit(chosen[i].chunk, range.worker, [&](const ChunkGeometry& chunk) {
-        found[i].bytes = static_cast<double>(chunk.bytes());
-        found[i].peak_bytes = static_cast<double>(chunk.build_peak_bytes());
+      const uint32_t chunk = kind.first + static_cast<uint32_t>(chosen[i].index);
+      chunks.visit(chunk, range.worker, [&](const ChunkGeometry& geometry) {
+        found[i].bytes = static_cast<double>(geometry.bytes());
+        found[i].peak_bytes = static_cast<double>(geometry.build_peak_bytes());
         return 0;
       });
       found[i].cpu_s = thread_cpu_seconds() - began;
     }
   });
   for (size_t i = 0; i < chosen.size(); ++i) {
-    const double share = static_cast<double>(chosen[i].times) / count;
-    const double scale = share * all / weights[chosen[i].chunk];
-    kind.bytes += found[i].bytes * scale;
-    kind.cpu_s += found[i].cpu_s * scale;
-    kind.peak_bytes += found[i].peak_bytes * share;
+    kind.bytes += found[i].bytes * chosen[i].scale;
+    kind.cpu_s += found[i].cpu_s * chosen[i].scale;
+    kind.peak_bytes += found[i].peak_bytes * chosen[i].share;
   }
 }
 

@@ -8,39 +8,31 @@
 #include "base/process_usage.h"
 #include "geom/skin_balls.h"
 #include "render/path/visibility_pilots.h"
+#include "render/weighted_selection.h"
 
 namespace pelage {
 namespace {
 
-constexpr size_t kSampledSkins = 4;
+constexpr size_t kSkinsWithBalls = 4;  // whose balls are found
 // Rough CPU seconds of a pilot ray, with its share of shading.
 constexpr double kPilotRay_s = 2e-6;
 // Bytes that pilots reserve, per byte that they use: most pilots end early, and a table has few cells
 // (docs/lab/FARM.md).
 constexpr int64_t kReserved = 8;
 
-/// Adds the balls of all skins. A sample of skins at even steps of the summed size stands for all, as in
-/// estimate_frame().
+/// Finds the balls of some skins, and adds what the balls of all skins need.
 void add_balls(const RenderScene& scene, const Job& job, ShadowEstimate& estimate) {
-  double all = 0;
-  for (const SkinPart& part : scene.skins) all += static_cast<double>(part.skin->temporary_bytes({}));
-  const size_t count = std::min(kSampledSkins, scene.skins.size());
-  const bool each = count == scene.skins.size();
-  double sum = 0, held = 0;
-  size_t step = 0;
-  for (const SkinPart& part : scene.skins) {
-    const auto tessellating = static_cast<double>(part.skin->temporary_bytes({}));
-    sum += tessellating;
-    size_t times = each ? 1 : 0;
-    for (; !each && step < count && sum > all * (double(step) + 0.5) / double(count); ++step) ++times;
-    if (times == 0) continue;
+  std::vector<double> sizes;
+  for (const SkinPart& part : scene.skins)
+    sizes.push_back(static_cast<double>(part.skin->temporary_bytes({})));
+  double held = 0;
+  for (const SelectedItem& item : select_by_weight(sizes, kSkinsWithBalls)) {
     job.check_stop();
     const double began = cpu_seconds();
-    const SkinMesh mesh = part.skin->tessellate({}, scene.camera.view());
+    const SkinMesh mesh = scene.skins[item.index].skin->tessellate({}, scene.camera.view());
     const SkinBalls balls(mesh, job);
-    const double scale = each ? 1 : double(times) / double(count) * all / tessellating;
-    held += scale * static_cast<double>(balls.bytes());
-    estimate.cpu_s += scale * (cpu_seconds() - began);
+    held += item.scale * static_cast<double>(balls.bytes());
+    estimate.cpu_s += item.scale * (cpu_seconds() - began);
     estimate.making_bytes = std::max(estimate.making_bytes,
                                      static_cast<int64_t>(mesh.bytes() + SkinBalls::temporary_bytes(mesh)));
   }

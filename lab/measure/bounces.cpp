@@ -36,7 +36,7 @@ struct Run {
   int bounces = 0;
   Outcome outcome;
   std::filesystem::path picture;
-  double light = NAN;  // mean luminance of fur / that of `path` with most bounces
+  double light = NAN;  // mean luminance of fur, relative to `path` with most bounces
 };
 
 class Sweep {

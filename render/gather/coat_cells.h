@@ -37,9 +37,9 @@ class CoatCells {
   /// Returns the key of a cell. `length`: of the strand in the picture, in pixels. `place`: of the hit on the
   /// strand, in [0, 1].
   uint64_t key(const Hit& hit, const Strands& strand, float length, float place, uint64_t random) const;
-  /// Returns the key of a patch: a cube of the skin at rest, like that of a cell but at most kPatchPixels
-  /// large, that contains the root of the strand. A random number of the strand assigns it to one of the
-  /// cubes around its root.
+  /// Returns the key of the patch of a strand. Patches are cubes of the skin at rest, as those of cells, but
+  /// up to kPatchPixels large. They overlap by half: a random number of the strand chooses one of those
+  /// around its root.
   uint64_t patch(const Hit& hit, const Strands& strand) const;
 
  private:

@@ -17,7 +17,7 @@
 namespace pelage {
 namespace {
 
-/// Keeps what it receives.
+/// Stores the header and the rows of an image.
 class Kept final : public ImageSink {
  public:
   void begin(const ImageHeader& got) override { header = got, ++begun; }

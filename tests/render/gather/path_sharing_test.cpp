@@ -154,7 +154,8 @@ TEST(PathSharing, BlendingTakesMostOfTheNoiseOfKnots) {
     }
     for (const PixelMoments& of : moments) variances[blended ? 1 : 0] += of.variance();
   }
-  // The mean of five knots: a fifth of the variance, and what is left of each knot's own.
+  // The mean of a patch of five knots has a fifth of their variance. Each knot also keeps some noise of its
+  // own.
   EXPECT_LT(variances[1], 0.4 * variances[0]);
   EXPECT_GT(variances[1], 0.1 * variances[0]);
 }
