@@ -2,209 +2,88 @@
 #include "image/plain_png.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cctype>
-#include <cstdlib>
-#include <fstream>
-#include <span>
-#include <stdexcept>
-#include <string_view>
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+#include <new>
 #include <vector>
 
-#include <zlib.h>
+#include <png.h>
 
 namespace pelage {
 namespace {
 
-using namespace std::string_view_literals;
-
-constexpr size_t kInput = size_t(1) << 16;
 constexpr size_t kStripValues = size_t(1) << 18;
-constexpr uint32_t kLargestSide = 1 << 16;
-constexpr int64_t kInflateBytes = int64_t(48) << 10;  // state and window of zlib
+constexpr png_uint_32 kLargestSide = 1 << 16;
+constexpr int64_t kLibraryBytes = int64_t(128) << 10;  // of libpng and zlib, without rows
 
-/// What is wrong with the file.
-struct Damage : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-uint32_t big_endian(const unsigned char* bytes) {
-  return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
-}
-
-/// The chunks of a PNG file: length, type, data, checksum.
-class Chunks {
+/// A PNG file that libpng reads. libpng reports errors by a long jump; each function here returns false
+/// instead, and no object with a destructor is alive where a jump may pass.
+class PngFile {
  public:
-  explicit Chunks(const std::filesystem::path& file) : file_(file, std::ios::binary) {}
-
-  bool read(unsigned char* to, size_t bytes) {
-    file_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes));
-    return static_cast<size_t>(file_.gcount()) == bytes;
+  explicit PngFile(const std::filesystem::path& path)
+      : file_(std::fopen(path.c_str(), "rb"), &std::fclose),
+        png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &error_, &note_error, &ignore_warning)) {
+    if (png_) info_ = png_create_info_struct(png_);
+    if (!info_) {
+      png_destroy_read_struct(&png_, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
   }
-  /// Reads the header of the next chunk.
-  bool next() {
-    std::array<unsigned char, 8> head{};
-    if (!read(head.data(), head.size())) return false;
-    left_ = big_endian(head.data());
-    type_.assign(reinterpret_cast<const char*>(&head[4]), 4);
-    checksum_ = ::crc32(0, &head[4], 4);
+  ~PngFile() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngFile(const PngFile&) = delete;
+  PngFile& operator=(const PngFile&) = delete;
+
+  /// Reads everything before the pixels.
+  bool read_header() {
+    if (!file_) return false;
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_init_io(png_, file_.get());
+    png_read_info(png_, info_);
+    if (std::endian::native == std::endian::little && png_get_bit_depth(png_, info_) == 16)
+      png_set_swap(png_);
     return true;
   }
-  const std::string& type() const { return type_; }
-  /// Bytes of data of the chunk that have not been read.
-  uint32_t left() const { return left_; }
-  /// Reads at most `bytes` bytes of the chunk's data. Returns their count; 0 at the end of the file.
-  size_t data(unsigned char* to, size_t bytes) {
-    const size_t count = std::min<size_t>(bytes, left_);
-    if (!read(to, count)) return 0;
-    checksum_ = ::crc32(checksum_, to, static_cast<uInt>(count));
-    left_ -= static_cast<uint32_t>(count);
-    return count;
+  /// Returns nothing when the file is not a plain PNG. Call after read_header().
+  std::optional<TexelLayout> layout() const {
+    const int bits = png_get_bit_depth(png_, info_), color = png_get_color_type(png_, info_);
+    const png_uint_32 width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
+    if ((bits != 8 && bits != 16) || color == PNG_COLOR_TYPE_PALETTE) return {};
+    if (width > kLargestSide || height > kLargestSide) return {};
+    if (png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE) return {};
+    if (png_get_valid(png_, info_, PNG_INFO_PLTE | PNG_INFO_tRNS) != 0) return {};
+    return TexelLayout{static_cast<int>(width), static_cast<int>(height), png_get_channels(png_, info_),
+                       bits == 8 ? TexelKind::kU8 : TexelKind::kU16};
   }
-  /// Reads the checksum that follows the data, and returns whether it matches. Call after reading all data.
-  bool is_intact() {
-    std::array<unsigned char, 4> stored{};
-    return left_ == 0 && read(stored.data(), stored.size()) && big_endian(stored.data()) == checksum_;
+  /// Reads `count` rows. `to`: the first row; `row_bytes`: of each.
+  bool read_rows(png_bytep to, size_t row_bytes, size_t count) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    for (size_t i = 0; i < count; ++i) png_read_row(png_, to + i * row_bytes, nullptr);
+    return true;
   }
-  /// Skips the rest of the chunk and its checksum.
-  bool skip() { return !!file_.ignore(std::streamsize(left_) + 4); }
+  /// Reads what follows the pixels, and verifies its checksums.
+  bool read_end() {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_read_end(png_, nullptr);
+    return true;
+  }
+  /// What was wrong in the function that returned false.
+  std::string error() const { return std::feof(file_.get()) ? "is truncated" : "is damaged: " + error_; }
 
  private:
-  std::ifstream file_;
-  std::string type_;
-  uint32_t left_ = 0;
-  uLong checksum_ = 0;
+  [[noreturn]] static void note_error(png_structp png, png_const_charp message) {
+    *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+    png_longjmp(png, 1);
+  }
+  static void ignore_warning(png_structp, png_const_charp) {}
+
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::string error_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
 };
-
-/// Reads everything before the pixels. Returns nothing when the file is not a plain PNG.
-std::optional<TexelLayout> read_png_header(Chunks& chunks) {
-  std::array<unsigned char, 8> signature{};
-  std::array<unsigned char, 13> head{};
-  if (!chunks.read(signature.data(), signature.size()) ||
-      std::string_view(reinterpret_cast<const char*>(signature.data()), 8) != "\x89PNG\r\n\x1a\n"sv)
-    return {};
-  if (!chunks.next() || chunks.type() != "IHDR" || chunks.left() != head.size()) return {};
-  if (chunks.data(head.data(), head.size()) != head.size() || !chunks.is_intact()) return {};
-  const uint32_t width = big_endian(head.data()), height = big_endian(&head[4]);
-  const int bits = head[8], color = head[9];
-  const bool other_methods = head[10] != 0 || head[11] != 0 || head[12] != 0;
-  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide || other_methods) return {};
-  if ((bits != 8 && bits != 16) || (color != 0 && color != 2 && color != 4 && color != 6)) return {};
-  while (chunks.next() && chunks.type() != "IEND" && chunks.type() != "PLTE" && chunks.type() != "tRNS") {
-    if (chunks.type() == "IDAT") {
-      const int channels = (color & 2 ? 3 : 1) + (color & 4 ? 1 : 0);
-      return TexelLayout{static_cast<int>(width), static_cast<int>(height), channels,
-                         bits == 8 ? TexelKind::kU8 : TexelKind::kU16};
-    }
-    if (!chunks.skip()) return {};
-  }
-  return {};
-}
-
-/// Decompresses the data of consecutive IDAT chunks.
-class Inflater {
- public:
-  explicit Inflater(Chunks& chunks) : chunks_(chunks), input_(kInput) {
-    if (::inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
-  }
-  ~Inflater() { ::inflateEnd(&stream_); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-
-  /// Fills `to`. Throws Damage when the data are damaged or too short.
-  void read(unsigned char* to, size_t bytes) {
-    stream_.next_out = to;
-    stream_.avail_out = static_cast<uInt>(bytes);
-    while (stream_.avail_out > 0) {
-      if (stream_.avail_in == 0) fill();
-      const int state = ::inflate(&stream_, Z_NO_FLUSH);
-      ended_ = state == Z_STREAM_END;
-      if (ended_ && stream_.avail_out > 0) throw Damage("is truncated");
-      if (state != Z_OK && !ended_) throw Damage("is damaged: its pixels cannot be decompressed");
-    }
-  }
-
-  /// Checks the checksums, after all bytes were read. Ignores further bytes.
-  void finish() {
-    unsigned char more = 0;
-    stream_.next_out = &more;
-    stream_.avail_out = 1;
-    while (!ended_ && stream_.avail_out > 0) {
-      if (stream_.avail_in == 0) fill();
-      const int state = ::inflate(&stream_, Z_NO_FLUSH);
-      ended_ = state == Z_STREAM_END;
-      if (state != Z_OK && !ended_) throw Damage("is damaged: its pixels cannot be decompressed");
-    }
-    if (chunks_.left() == 0 && !chunks_.is_intact())
-      throw Damage("is damaged: a checksum of its pixels is wrong");
-  }
-
- private:
-  void fill() {
-    while (chunks_.left() == 0) {
-      if (!chunks_.is_intact()) throw Damage("is damaged: a checksum of its pixels is wrong");
-      if (!chunks_.next() || chunks_.type() != "IDAT") throw Damage("is truncated");
-    }
-    const size_t count = chunks_.data(input_.data(), input_.size());
-    if (count == 0) throw Damage("is truncated");
-    stream_.next_in = input_.data();
-    stream_.avail_in = static_cast<uInt>(count);
-  }
-
-  Chunks& chunks_;
-  std::vector<unsigned char> input_;
-  z_stream stream_{};
-  bool ended_ = false;
-};
-
-unsigned char paeth(int left, int up, int corner) {
-  const int guess = left + up - corner;
-  const int to_left = std::abs(guess - left), to_up = std::abs(guess - up);
-  const int to_corner = std::abs(guess - corner);
-  if (to_left <= to_up && to_left <= to_corner) return static_cast<unsigned char>(left);
-  return static_cast<unsigned char>(to_up <= to_corner ? up : corner);
-}
-
-/// Undoes the filter of a row. `above`: the row above, zeros for the first. `step`: bytes of a texel.
-void unfilter(int filter, std::vector<unsigned char>& row, const std::vector<unsigned char>& above,
-              size_t step) {
-  if (filter > 4) throw Damage("is damaged: a row has an unknown filter");
-  for (size_t i = 0; i < row.size(); ++i) {
-    const int left = i >= step ? row[i - step] : 0, up = above[i];
-    const int corner = i >= step ? above[i - step] : 0;
-    const int predicted = filter == 0   ? 0
-                          : filter == 1 ? left
-                          : filter == 2 ? up
-                          : filter == 3 ? (left + up) / 2
-                                        : paeth(left, up, corner);
-    row[i] = static_cast<unsigned char>(row[i] + predicted);
-  }
-}
-
-void read_png_rows(Chunks& chunks, const TexelLayout& layout, size_t strip_rows, ImageSink& sink) {
-  Inflater inflater(chunks);
-  std::vector<unsigned char> row(layout.row_bytes()), above(row.size());
-  std::vector<std::byte> strip;
-  strip.reserve(strip_rows * row.size());
-  const auto height = static_cast<size_t>(layout.height);
-  for (size_t y = 0; y < height; ++y) {
-    unsigned char filter = 0;
-    inflater.read(&filter, 1);
-    inflater.read(row.data(), row.size());
-    unfilter(filter, row, above, layout.texel_bytes());
-    const auto bytes = std::as_bytes(std::span(row));
-    strip.insert(strip.end(), bytes.begin(), bytes.end());
-    if (layout.kind == TexelKind::kU16 && std::endian::native == std::endian::little) {
-      for (size_t i = strip.size() - row.size(); i < strip.size(); i += 2) std::swap(strip[i], strip[i + 1]);
-    }
-    std::swap(row, above);
-    if ((y + 1) % strip_rows != 0 && y + 1 != height) continue;
-    sink.rows(strip.data(), static_cast<int>(strip.size() / row.size()));
-    strip.clear();
-  }
-  inflater.finish();
-}
 
 }  // namespace
 
@@ -213,19 +92,20 @@ std::optional<std::string> read_plain_png(const std::filesystem::path& file, Ima
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".png") return {};
-  Chunks chunks(file);
-  const std::optional<TexelLayout> layout = read_png_header(chunks);
+  PngFile png(file);
+  if (!png.read_header()) return {};
+  const std::optional<TexelLayout> layout = png.layout();
   if (!layout) return {};
-  const size_t values = layout->row_bytes() / value_bytes(layout->kind);
-  const size_t strip = std::clamp<size_t>(kStripValues / values, 1, static_cast<size_t>(layout->height));
-  sink.begin(
-      {*layout, true, static_cast<int64_t>((strip + 2) * layout->row_bytes() + kInput) + kInflateBytes});
-  try {
-    read_png_rows(chunks, *layout, strip, sink);
-  } catch (const Damage& error) {
-    return error.what();
+  const size_t row_bytes = layout->row_bytes(), height = static_cast<size_t>(layout->height);
+  const size_t strip = std::clamp<size_t>(kStripValues * value_bytes(layout->kind) / row_bytes, 1, height);
+  sink.begin({*layout, true, static_cast<int64_t>((strip + 3) * row_bytes) + kLibraryBytes});
+  std::vector<std::byte> rows(strip * row_bytes);
+  for (size_t first = 0; first < height; first += strip) {
+    const size_t count = std::min(strip, height - first);
+    if (!png.read_rows(reinterpret_cast<png_bytep>(rows.data()), row_bytes, count)) return png.error();
+    sink.rows(rows.data(), static_cast<int>(count));
   }
-  return "";
+  return png.read_end() ? "" : png.error();
 }
 
 }  // namespace pelage
