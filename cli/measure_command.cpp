@@ -55,11 +55,14 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   return setup;
 }
 
-std::string picture_text(const SceneDescription& scene) {
-  return fmt::format("{} x {} pixels, {}, {}, frame {}, shutter {:g} to {:g}, seed {}", scene.image.width,
-                     scene.image.height, counted(scene.render.samples, "sample"),
-                     counted(scene.render.bounces, "bounce"), scene.frames.frames.front(),
-                     scene.camera.shutter.x, scene.camera.shutter.y, scene.render.seed);
+std::string picture_text(const SceneDescription& scene, Experiment experiment) {
+  const std::string light =
+      experiment == Experiment::kBounces  // which sets both
+          ? ""
+          : counted(scene.render.samples, "sample") + ", " + counted(scene.render.bounces, "bounce") + ", ";
+  return fmt::format("{} x {} pixels, {}frame {}, shutter {:g} to {:g}, seed {}", scene.image.width,
+                     scene.image.height, light, scene.frames.frames.front(), scene.camera.shutter.x,
+                     scene.camera.shutter.y, scene.render.seed);
 }
 
 Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
@@ -115,7 +118,7 @@ int run_measure(const Options& options) {
   }
   report.facts = {{"Scene", options.input},
                   {"Scene hash", scene.hash},
-                  {"Picture", picture_text(scene)},
+                  {"Picture", picture_text(scene, options.experiment)},
                   {"Command", shell_text(command)},
                   {"Repeats", std::to_string(options.repeat)}};
   report.facts.insert(report.facts.end(), facts.begin(), facts.end());
