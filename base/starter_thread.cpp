@@ -5,12 +5,29 @@
 
 namespace pelage {
 
+namespace {
+
+/// While it exists, the calling thread receives no signals.
+class BlockedSignals {
+ public:
+  BlockedSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~BlockedSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  BlockedSignals(const BlockedSignals&) = delete;
+  BlockedSignals& operator=(const BlockedSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
 StarterThread::StarterThread() {
-  sigset_t all, before;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);  // inherited by the new thread
+  const BlockedSignals blocked;  // the new thread inherits this
   thread_ = std::thread([this] { loop(); });
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 StarterThread::~StarterThread() {

@@ -13,6 +13,7 @@ namespace pelage {
 /// no signals. Thread safety: run() may be called from any thread.
 class StarterThread {
  public:
+  /// Throws std::system_error when the system has no room for another thread.
   StarterThread();
   ~StarterThread();
   StarterThread(const StarterThread&) = delete;

@@ -80,6 +80,33 @@ std::set<int64_t> jobs_in_queue(const fs::path& folder, const QueuedElements& qu
   return found;
 }
 
+/// Cancels jobs with as few commands as possible: one that fails is repeated for each half of its jobs.
+class Cancelling {
+ public:
+  void cancel(std::span<const int64_t> jobs) {
+    constexpr size_t kIds = 5000;  // of one command, whose text the system limits to 128 KiB
+    for (; jobs.size() > kIds; jobs = jobs.subspan(kIds)) cancel_some(jobs.first(kIds));
+    if (!jobs.empty()) cancel_some(jobs);
+  }
+
+  std::vector<int64_t> failed;
+  std::string message;  ///< last line of the last command that failed for a single job
+
+ private:
+  void cancel_some(std::span<const int64_t> jobs) {
+    const ShellResult result = run_shell(fmt::format("scancel {}", fmt::join(jobs, " ")));
+    if (result.succeeded) return;
+    if (const size_t half = jobs.size() / 2; half > 0) {
+      cancel_some(jobs.first(half));
+      cancel_some(jobs.subspan(half));
+      return;
+    }
+    failed.push_back(jobs.front());
+    const std::string text = result.output.substr(0, result.output.find_last_not_of('\n') + 1);
+    message = text.substr(text.rfind('\n') + 1);
+  }
+};
+
 /// The frames to estimate: the first, the middle and the last one.
 std::vector<int> sampled_frames(const std::vector<int>& frames) {
   std::vector<int> sampled;
@@ -290,13 +317,20 @@ int cancel_shot(const Options& options) {
     throw Error(ErrorKind::kFailed, "scancel is not in PATH: this machine has no Slurm");
   const std::optional<QueuedElements> queue = ask_queue(folder);
   if (!queue) throw Error(ErrorKind::kFailed, "the queue does not answer; nothing was cancelled");
-  const std::set<int64_t> jobs = jobs_in_queue(folder, *queue);
-  constexpr size_t kIds = 5000;  // of one command, whose text the system limits to 128 KiB
-  std::vector<int64_t> left(jobs.begin(), jobs.end());
-  for (; !left.empty(); left.resize(left.size() - std::min(kIds, left.size()))) {
-    const std::span last = std::span(left).last(std::min(kIds, left.size()));
-    const ShellResult result = run_shell(fmt::format("scancel {}", fmt::join(last, " ")));
-    if (!result.succeeded) throw Error(ErrorKind::kFailed, "scancel: " + result.output);
+  const std::set<int64_t> queued = jobs_in_queue(folder, *queue);
+  const std::vector<int64_t> jobs(queued.begin(), queued.end());
+  Cancelling cancelling;
+  cancelling.cancel(jobs);
+  if (!cancelling.failed.empty()) {
+    if (const auto now = ask_queue(folder)) {  // jobs may have ended before they were cancelled
+      const std::set<int64_t> left = jobs_in_queue(folder, *now);
+      std::erase_if(cancelling.failed, [&](int64_t job) { return !left.contains(job); });
+    }
+  }
+  if (const size_t failed = cancelling.failed.size(); failed > 0) {
+    throw Error(ErrorKind::kFailed, fmt::format("{} cancelled, but scancel failed for {}: {}",
+                                                counted(static_cast<int64_t>(jobs.size() - failed), "job"),
+                                                fmt::join(cancelling.failed, ", "), cancelling.message));
   }
   std::cout << counted(static_cast<int64_t>(jobs.size()), "job") << " cancelled\n";
   return 0;

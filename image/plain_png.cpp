@@ -16,7 +16,7 @@ namespace pelage {
 namespace {
 
 constexpr size_t kStripValues = size_t(1) << 18;
-constexpr png_uint_32 kLargestSide = 1 << 16;
+constexpr png_uint_32 kLargestPngSide = 1 << 16;
 constexpr int64_t kLibraryBytes = int64_t(128) << 10;  // of libpng and zlib, without rows
 
 /// A PNG file that libpng reads. libpng reports errors by a long jump; each function here returns false
@@ -51,7 +51,7 @@ class PngFile {
     const int bits = png_get_bit_depth(png_, info_), color = png_get_color_type(png_, info_);
     const png_uint_32 width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
     if ((bits != 8 && bits != 16) || color == PNG_COLOR_TYPE_PALETTE) return {};
-    if (width > kLargestSide || height > kLargestSide) return {};
+    if (width > kLargestPngSide || height > kLargestPngSide) return {};
     if (png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE) return {};
     if (png_get_valid(png_, info_, PNG_INFO_PLTE | PNG_INFO_tRNS) != 0) return {};
     return TexelLayout{static_cast<int>(width), static_cast<int>(height), png_get_channels(png_, info_),

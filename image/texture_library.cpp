@@ -16,6 +16,7 @@
 #include "image/image_file_check.h"
 #include "image/image_reader.h"
 #include "image/plain_png.h"
+#include "image/radiance_hdr.h"
 #include "image/truncation.h"
 
 namespace pelage {
@@ -212,6 +213,7 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
         reserve(ledger_, MemoryTag::kTextures, interlaced_bytes(stream),
                 asset.path.string() + ": is progressive or interlaced, so it is decoded as a whole");
     std::optional<std::string> damage = read_plain_png(asset.path, intake);
+    if (!damage) damage = read_radiance_hdr(asset.path, intake);
     if (!damage) damage = reader().read(asset.path, intake);
     if (!damage->empty()) fail_image(asset, *damage);
     Stored& read = stored_.emplace(path, intake.finish()).first->second;

@@ -27,8 +27,9 @@ struct EnumNames<ColorSpace> {
 };
 
 /// Reads images of any format that OpenImageIO supports. OpenImageIO is in a module that is loaded for the
-/// first image, because linking it to the program would cost 0.3 s and 130 MB at every start. The library
-/// keeps one copy of the texels of each file, in the type in which the file stores them.
+/// first image that is neither a plain PNG nor a Radiance file, or does not stay in memory, because linking
+/// it to the program would cost 0.3 s and 130 MB at every start. The library keeps one copy of the texels of
+/// each file, in the type in which the file stores them.
 ///
 /// Without a ledger limit, all images stay in memory. With a limit, an image stays in memory if all images in
 /// memory then take at most a quarter of the limit and there is room for this image. Any other image becomes

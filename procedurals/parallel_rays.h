@@ -24,6 +24,10 @@ class ParallelRays {
   ParallelRays(const V3f& direction, std::span<const V3f> origins);
 
   size_t size() const { return rays_.size(); }
+  /// Bytes of memory of this object.
+  size_t bytes() const {
+    return sizeof(*this) + rays_.capacity() * sizeof(Ray) + first_.capacity() * sizeof(uint32_t);
+  }
 
   /// Where a ray passes a piece of a strand.
   struct Pass {

@@ -25,6 +25,11 @@ struct PilotPatch {
     uint32_t begin, end;  ///< indices in `pieces`
   };
   std::vector<Strand> strands;
+
+  /// Bytes of memory of this object.
+  size_t bytes() const {
+    return sizeof(*this) + pieces.capacity() * sizeof(StrandPiece) + strands.capacity() * sizeof(Strand);
+  }
 };
 
 /// Grows the strands at rest whose roots are within `radius` of the root of a follicle. Where they are much

@@ -89,6 +89,13 @@ class Pilots {
     meet_all();
   }
 
+  /// Bytes of memory of this object, and of count().
+  size_t bytes() const {
+    constexpr size_t kPerRay = 2 * sizeof(uint32_t) + 3 * sizeof(float);
+    return sizeof(*this) + rays_->bytes() + own_.capacity() * kPerRay +
+           passes_.capacity() * sizeof(ParallelRays::Pass);
+  }
+
   /// Counts the origins from which nothing blocks the ray.
   void count_open(std::vector<int32_t>& open, int32_t sign) const {
     for (size_t ray = 0; ray < own_.size(); ++ray) open[origin_[ray]] += is_open(ray) ? sign : 0;
@@ -144,7 +151,9 @@ class Pilots {
   std::vector<ParallelRays::Pass> passes_;
 };
 
-Tallies count_patch(const PilotPatch& patch, size_t number, const Simplification& seen, float spacing) {
+/// Charges what it holds to MemoryTag::kGrooms.
+Tallies count_patch(const PilotPatch& patch, size_t number, const Simplification& seen, float spacing,
+                    MemoryLedger& ledger) {
   const std::vector<Origin> origins = origins_of(patch);
   std::vector<Pilots> pilots;
   std::vector<int32_t> weights(origins.size(), 0);
@@ -152,6 +161,9 @@ Tallies count_patch(const PilotPatch& patch, size_t number, const Simplification
     pilots.emplace_back(patch, origins, direction_of(number, d));
     pilots.back().count_open(weights, 1);
   }
+  size_t bytes = patch.bytes() + origins.capacity() * sizeof(Origin) + weights.capacity() * sizeof(int32_t);
+  for (const Pilots& of_direction : pilots) bytes += of_direction.bytes();
+  const MemoryCharge charge(ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
   Tallies tallies;
   for (Pilots& of_direction : pilots) {
     // Whether a ray is open must not decide how much it counts.
@@ -186,8 +198,8 @@ std::optional<WidthFit> fit_widths(const Groom& groom, const LimitSurface* rest,
   std::vector<Tallies> of_patch(roots.size());
   job.for_each(roots.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)
-      of_patch[i] =
-          count_patch(strands_around(groom, pose, priorities, roots[i], radius, job), i, seen, spacing);
+      of_patch[i] = count_patch(strands_around(groom, pose, priorities, roots[i], radius, job), i, seen,
+                                spacing, job.ledger);
   });
   Tallies sum;
   for (const Tallies& tallies : of_patch) {

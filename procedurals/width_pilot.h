@@ -29,7 +29,8 @@ float near_distance(float share, float spacing);
 /// `seen`: the coat at full detail, for the widths before the fit. `spacing`: distance between its strands.
 /// `rest`: the skin at rest; null for a groom without a skin. `priorities`: null for those of the groom. The
 /// result does not depend on how the groom is divided into leaves. Empty if too few rays are blocked or pass.
-/// Each thread needs some MiB for strands. Throws Error (kStopped) if the user has asked to stop.
+/// Each thread needs some MiB for strands and rays, which are charged to MemoryTag::kGrooms. Throws Error
+/// (kStopped) if the user has asked to stop.
 std::optional<WidthFit> fit_widths(const Groom& groom, const LimitSurface* rest,
                                    const EvenPriorities* priorities, const Simplification& seen,
                                    float spacing, const Job& job);

@@ -91,6 +91,17 @@ std::vector<ShadingCurve> together_curves() {
 
 }  // namespace
 
+std::string same_as_gather(const SceneDescription& scene) {
+  size_t skins = scene.crowds.items.empty() && scene.archives.items.empty() ? 0 : RenderParams::kFewSkins + 1;
+  for (const auto& character : scene.characters.items) skins += character.value.parts.size();
+  RenderParams render = scene.render;
+  render.gather.reuse = true;
+  const bool caches = render.uses_cache(skins);
+  // Some characters may not be drawn, or crowds and archives may be small.
+  if (caches != render.uses_cache(0) && skins > RenderParams::kFewSkins) return "";
+  return caches ? "cache" : "no_cache";
+}
+
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
                                          const std::vector<std::string>& parts) {
   const GatherParams& own = scene.render.gather;
@@ -118,6 +129,8 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
   for (ShadingCurve& curve : curves) curve = with_known(std::move(curve), "off", "false");
   for (ShadingCurve& curve : occlusion_curves()) curves.push_back(std::move(curve));
   for (ShadingCurve& curve : together_curves()) curves.push_back(std::move(curve));
+  const std::string same = same_as_gather(scene);
+  std::erase_if(curves, [&](const ShadingCurve& curve) { return curve.id == same; });
   std::erase_if(curves, [&](const ShadingCurve& curve) {
     return !parts.empty() && curve.id != "path" &&
            std::find(parts.begin(), parts.end(), curve.id) == parts.end();

@@ -53,8 +53,12 @@ struct ShadingCurve {
   bool adaptive = false;
 };
 
-/// Returns the ways to render whose names are in `parts`, or all of them if `parts` is empty. `path` is
-/// always the first.
+/// Returns `cache` or `no_cache`, the one that renders exactly as `gather` does with the settings of this
+/// scene. Empty if it is unknown, because it depends on how many skins a crowd or an archive has.
+std::string same_as_gather(const SceneDescription& scene);
+
+/// Returns the ways to render whose names are in `parts`, or all of them if `parts` is empty; but not
+/// same_as_gather(). `path` is always the first.
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
                                          const std::vector<std::string>& parts);
 

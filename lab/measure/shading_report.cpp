@@ -75,8 +75,8 @@ std::string gain_text(const ShadingRuns& all, const Report& report) {
                       : text;
 }
 
-std::string method_text(const ShadingPlan& plan) {
-  return fmt::format(
+std::string method_text(const ShadingPlan& plan, const std::string& same_as_gather) {
+  std::string text = fmt::format(
       "The references a and b are two splatted pictures of path with {}. Every picture has a seed of its "
       "own. relMSE of a picture x is the mean over pixels with fur (layer tangent not 0) and channels of "
       "(x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the "
@@ -86,6 +86,9 @@ std::string method_text(const ShadingPlan& plan) {
       "noise budget is the noise of path with the stated number of samples, and a pixel may get 16 times "
       "as many.",
       counted(plan.reference_samples, "sample"));
+  if (!same_as_gather.empty())
+    text += fmt::format(" {} is left out: in this scene, gather does exactly that.", same_as_gather);
+  return text;
 }
 
 /// A reference, gather, and the differences of all variants of gather.
@@ -129,7 +132,7 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
   const Wanted is_gather = [&](const ShadingRun& run) { return run.reuse.has_value(); };
   const Wanted is_measured = [](const ShadingRun& run) { return run.curve.has_value(); };
   report.abstract = gain_text(all, report);
-  report.sections.push_back({"Method", {Paragraph{method_text(plan)}}});
+  report.sections.push_back({"Method", {Paragraph{method_text(plan, all.same_as_gather)}}});
   report.sections.push_back(
       {"Time to an error",
        {table(is_last,

@@ -20,7 +20,7 @@ constexpr int kWarmUpSamples = 16;
 class Sweep {
  public:
   Sweep(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup, Progress& progress)
-      : results{shading_curves(scene, plan.parts), {}, {}},
+      : results{shading_curves(scene, plan.parts), {}, {}, same_as_gather(scene)},
         plan_(plan),
         progress_(progress),
         caches_(CacheFolders(scene, setup.folder).arguments("warm")),

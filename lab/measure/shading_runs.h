@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lab/measure/experiments.h"
@@ -33,6 +34,7 @@ struct ShadingRuns {
   std::vector<ShadingCurve> curves;
   std::vector<ShadingRun> runs;  ///< sorted by the index of their curve
   std::vector<std::filesystem::path> references;
+  std::string same_as_gather;  ///< way to render that is left out, see same_as_gather()
 };
 
 /// Runs all variants of the experiment. After a variant fails, runs the others nevertheless, unless the

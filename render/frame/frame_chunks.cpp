@@ -71,7 +71,11 @@ void FrameChunks::store_skins(const Job& job) {
   const ContentStore::Lock lock = store.lock("skins", *key, [&] { return job.progress.cancelled(); });
   // The previous holder of the lock may have written them.
   if (lock.held()) stored_skins_ = StoredSkins::open(store, *key, scene_, [](const std::string&) {});
-  if (!stored_skins_) StoredSkins::write(store, *key, scene_, pieces_, job);
+  if (!stored_skins_) {
+    StoredSkins::write(store, *key, scene_, pieces_, job);
+  } else {
+    pieces_ = {};  // equal ones
+  }
 }
 
 void FrameChunks::divide_skins(const Job& job) {
@@ -83,7 +87,6 @@ void FrameChunks::divide_skins(const Job& job) {
         StoredSkins::key(scene_, max_piece_cost(scene_.render.memory.bytes));
     const WarningSink warn = [&progress = job.progress](const std::string& line) { progress.warn(line); };
     if (key) stored_skins_ = StoredSkins::open(ContentStore(folder), *key, scene_, warn);
-    if (stored_skins_) pieces_ = stored_skins_->pieces();
     if (stored_skins_) return;
   }
   const auto max = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
@@ -138,7 +141,7 @@ void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t 
 ChunkContents FrameChunks::grow(uint32_t chunk) const {
   if (is_skin(chunk)) {
     const size_t number = chunk - leaves_.size();
-    const SkinChunk& piece = pieces_[number];
+    const SkinChunk& piece = pieces()[number];
     if (std::optional<SkinMesh> mesh = stored_skins_ ? stored_skins_->mesh(number) : std::nullopt)
       return {std::move(*mesh), piece.skin};
     return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
@@ -162,7 +165,7 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
 ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   ChunkCounts counts;
   if (is_skin(chunk)) {
-    const SkinChunk& piece = pieces_[chunk - leaves_.size()];
+    const SkinChunk& piece = pieces()[chunk - leaves_.size()];
     counts.vertices = piece.piece.vertices;
     counts.triangles = piece.piece.triangles;
     counts.motion_keys = scene_.skins[piece.skin].skin->motion_keys();
@@ -184,7 +187,7 @@ StrandScale FrameChunks::scale(uint32_t chunk) const {
 }
 
 std::string FrameChunks::name(uint32_t chunk) const {
-  return is_skin(chunk) ? scene_.skins[pieces_[chunk - leaves_.size()].skin].name
+  return is_skin(chunk) ? scene_.skins[pieces()[chunk - leaves_.size()].skin].name
                         : scene_.fur[parts_[chunk]].name;
 }
 
@@ -310,9 +313,9 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& cou
   std::vector<ChunkBounds> measured = leaf_bounds(unknown, job, counts);
   for (size_t i = 0; i < measured.size(); ++i) bounds[numbers[i]] = std::move(measured[i]);
   const BoundingStrategy strategy = bounds_;
-  job.workers.for_each(pieces_.size(), 1, [&](WorkRange range) {
+  job.workers.for_each(pieces().size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
-      const SkinChunk& piece = pieces_[i];
+      const SkinChunk& piece = pieces()[i];
       ChunkBounds& box = bounds[leaves_.size() + i];
       box.keys = bound_keys(strategy);
       box.boxes.assign(static_cast<size_t>(box.keys),

@@ -31,7 +31,7 @@ class FrameChunks final : public ChunkGrower {
   ChunkContents grow(uint32_t chunk) const override;
   bool is_skin(uint32_t chunk) const override { return chunk >= leaves_.size(); }
   uint32_t part(uint32_t chunk) const override {
-    return is_skin(chunk) ? pieces_[chunk - leaves_.size()].skin : parts_[chunk];
+    return is_skin(chunk) ? pieces()[chunk - leaves_.size()].skin : parts_[chunk];
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
@@ -42,7 +42,7 @@ class FrameChunks final : public ChunkGrower {
   std::string name(uint32_t chunk) const override;
 
   /// Returns the count of chunks.
-  size_t size() const { return leaves_.size() + pieces_.size(); }
+  size_t size() const { return leaves_.size() + pieces().size(); }
   /// Returns the leaves of all coats, which are the chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
   /// Computes the boxes of all chunks with the strategy of the scene (render.bounds). The box of a piece of a
@@ -92,6 +92,7 @@ class FrameChunks final : public ChunkGrower {
   std::vector<ChunkBounds> leaf_bounds(const std::vector<const Procedural*>& leaves, const Job& job,
                                        BoundingCounts& counts) const;
 
+  const std::vector<SkinChunk>& pieces() const { return stored_skins_ ? stored_skins_->pieces() : pieces_; }
   void divide_skins(const Job& job);
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
@@ -103,8 +104,8 @@ class FrameChunks final : public ChunkGrower {
   std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
   std::vector<SightRange> ranges_;   // by coat
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
-  std::vector<SkinChunk> pieces_;
-  std::unique_ptr<const StoredSkins> stored_skins_;  // null: pieces are tessellated
+  std::vector<SkinChunk> pieces_;    // of the skins that this object has divided
+  std::unique_ptr<const StoredSkins> stored_skins_;  // has all pieces; null: pieces_ has them
   mutable std::atomic<int64_t> strands_grown_{0}, strands_regrown_{0};
   std::unique_ptr<std::atomic<bool>[]> was_grown_;    // by leaf
   std::unique_ptr<std::atomic<uint32_t>[]> growths_;  // by leaf

@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-const std::string kKind = "skins";
+const std::string kSkinsKind = "skins";
 constexpr uint32_t kVersion = 1;
 enum Section : size_t { kPieces, kFaces, kMeshes };
 enum MeshSection : size_t {
@@ -65,7 +65,7 @@ std::optional<ContentHash> StoredSkins::key(const RenderScene& scene, size_t max
 
 std::unique_ptr<const StoredSkins> StoredSkins::open(const ContentStore& store, const ContentHash& key,
                                                      const RenderScene& scene, const WarningSink& warn) {
-  std::optional<StoredSections> file = store.open_sections(kKind, key, warn);
+  std::optional<StoredSections> file = store.open_sections(kSkinsKind, key, warn);
   if (!file) return nullptr;
   try {
     return std::make_unique<const StoredSkins>(std::move(*file), scene, warn);
@@ -162,7 +162,7 @@ bool StoredSkins::write(const ContentStore& store, const ContentHash& key, const
                       chunk.temporary_bytes});
     faces.insert(faces.end(), piece.faces.begin(), piece.faces.end());
   }
-  ContentStore::Writer writer = store.writer(kKind, key);
+  ContentStore::Writer writer = store.writer(kSkinsKind, key);
   writer.add(std::span<const StoredPiece>(stored));
   writer.add(std::span<const uint32_t>(faces));
   for (size_t next = 0; next < pieces.size() && !job.progress.cancelled() && !writer.failed();) {

@@ -13,7 +13,7 @@ namespace {
 // So that the cells of distant and near points have sides that floats can hold.
 constexpr int kMinExponent = -60, kMaxExponent = 60;
 /// Number of pilot rays as which the expected fraction counts.
-constexpr float kPrior = 2;
+constexpr float kPriorShots = 2;
 constexpr size_t kStrata = LearnedVisibility::kStrata;
 constexpr size_t kMaxBytes = size_t{32} << 20, kMinCells = 1024;
 
@@ -51,7 +51,7 @@ void VisibilityTable::freeze(LearnedUse use) {
     sum.arrived += tallies_[i].arrived;
   }
   const auto fraction = [](const Tally& tally, float expected) {
-    return (tally.arrived + kPrior * expected) / (tally.shots + kPrior);
+    return (tally.arrived + kPriorShots * expected) / (tally.shots + kPriorShots);
   };
   factors_.resize(tallies_.size());
   for (size_t first = 0; first < tallies_.size(); first += kStrata) {

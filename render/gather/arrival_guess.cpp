@@ -8,7 +8,7 @@ namespace pelage {
 namespace {
 
 /// The rays of a zone in all directions count as much as this many rays of one range.
-constexpr double kPrior = 2;
+constexpr double kPriorRays = 2;
 /// Least variance of the fraction that a ray transmits: guesses near 0 and 1 are uncertain.
 constexpr float kLeastVariance = 0.02f;
 
@@ -43,7 +43,7 @@ float ArrivalGuess::guess(const Sums& of_range, const Sums& of_all) {
   if (of_all.rays < 0.5 || !(of_all.seen > 0)) return 0;
   const double all = std::clamp(of_all.arrived / of_all.seen, 0.0, 1.0);
   if (of_range.rays < 0.5 || !(of_range.seen > 0)) return static_cast<float>(all);
-  const double prior = kPrior * of_all.seen / of_all.rays;
+  const double prior = kPriorRays * of_all.seen / of_all.rays;
   const double arrived = std::max(of_range.arrived, 0.0) + prior * all;
   return static_cast<float>(std::min(arrived / (of_range.seen + prior), 1.0));
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kVertices = 3;  // of a pilot at which lights are asked
 constexpr int kTargets = 4;        // groups of candidates per vertex
 constexpr size_t kPixelsPerPilot = 4, kMinPilots = 256, kMaxPilots = size_t(1) << 15;
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kNoSkin = std::numeric_limits<uint32_t>::max();
 constexpr size_t kMaxFitted = 20000;          // rays to which a shell is fitted
 constexpr size_t kBlock = 64, kBatch = 4096;  // pilots of one task, and between two additions to the table
 
@@ -35,7 +35,7 @@ struct VisibilityPilots::PilotRay {
   uint32_t light, stratum;
   V3f from;  // the position whose cell learns from this ray
   bool on_strand;
-  uint32_t skin;  // whose ball is in `ray`; kNone: none
+  uint32_t skin;  // whose ball is in `ray`; kNoSkin: none
   ShellRay ray;
 };
 
@@ -91,7 +91,7 @@ void VisibilityPilots::follow(size_t pilot, Scratch& scratch, std::vector<PilotR
                       to.stratum,
                       point.position(),
                       on_strand,
-                      below.ball.radius > 0 ? below.skin : kNone,
+                      below.ball.radius > 0 ? below.skin : kNoSkin,
                       {below.ball, shadow.origin, shadow.direction, shadow.far, through}});
     }
     stream.seek(draws + kLobe);
@@ -183,7 +183,7 @@ std::vector<CoatShell> VisibilityPilots::fit_shells(const Job& job, FrameStatist
   std::vector<std::vector<ShellRay>> by_skin(scene_.skins.size());
   for (const auto& block : trace(0, std::min(count(scene_), kBatch), job, scratch)) {
     for (const PilotRay& ray : block) {
-      const bool is_used = ray.on_strand && ray.skin != kNone && by_skin[ray.skin].size() < kMaxFitted;
+      const bool is_used = ray.on_strand && ray.skin != kNoSkin && by_skin[ray.skin].size() < kMaxFitted;
       if (is_used) by_skin[ray.skin].push_back(ray.ray);
     }
   }

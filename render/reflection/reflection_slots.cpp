@@ -6,7 +6,7 @@
 namespace pelage {
 namespace {
 
-constexpr uint64_t kNone = 0;  // the key of an empty slot; a cell with this key would be left out
+constexpr uint64_t kEmptyKey = 0;  // the key of an empty slot; a cell with this key would be left out
 
 template <class Slot>
 uint64_t key_of(const Slot& slot) {
@@ -18,7 +18,7 @@ uint64_t key_of(const Slot& slot) {
 ReflectionSlots::ReflectionSlots(const ReflectionTable& table, size_t lights, uint32_t fewest)
     : half_lines_(half_lines(lights)) {
   const auto kept = [&](size_t i) {
-    return table.cell(i).paths_of_largest >= fewest && table.cell(i).key != kNone;
+    return table.cell(i).paths_of_largest >= fewest && table.cell(i).key != kEmptyKey;
   };
   for (size_t i = 0; i < table.size(); ++i) size_ += kept(i) ? 1 : 0;
   count_ = slots_for(size_, lights);
@@ -35,7 +35,7 @@ ReflectionSlots::ReflectionSlots(const ReflectionTable& table, size_t lights, ui
 
 ReflectionSlots::HalfLine& ReflectionSlots::insert(uint64_t key) {
   size_t at = home(key);
-  while (key_of(slots_[at * half_lines_]) != kNone) at = at + 1 < count_ ? at + 1 : 0;
+  while (key_of(slots_[at * half_lines_]) != kEmptyKey) at = at + 1 < count_ ? at + 1 : 0;
   HalfLine& slot = slots_[at * half_lines_];
   const auto halves = std::bit_cast<std::array<float, 2>>(key);
   slot.values[0] = halves[0];
@@ -47,7 +47,7 @@ ReflectionSlots::Radiance ReflectionSlots::find(uint64_t key) const {
   for (size_t at = home(key);; at = at + 1 < count_ ? at + 1 : 0) {
     const HalfLine& slot = slots_[at * half_lines_];
     const uint64_t found = key_of(slot);
-    if (found == kNone) return {};
+    if (found == kEmptyKey) return {};
     if (found == key) return Radiance(&slot);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <system_error>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,22 @@ TEST(StarterThreadTest, ProcessesOutliveTheThreadThatAskedForThem) {
   }
   ASSERT_EQ(::waitpid(child, &status, 0), child);  // ended with the starter
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+TEST(StarterThreadTest, SignalsArriveAgainWhenTheThreadCannotStart) {
+  pthread_attr_t usual, huge;
+  ASSERT_EQ(::pthread_getattr_default_np(&usual), 0);
+  ASSERT_EQ(::pthread_attr_init(&huge), 0);
+  ASSERT_EQ(::pthread_attr_setstacksize(&huge, size_t(1) << 47), 0);  // all addresses of a process
+  ASSERT_EQ(::pthread_setattr_default_np(&huge), 0);
+  EXPECT_THROW(StarterThread(), std::system_error);
+  EXPECT_EQ(::pthread_setattr_default_np(&usual), 0);
+  sigset_t blocked;
+  ::pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+  EXPECT_EQ(sigismember(&blocked, SIGUSR1), 0);
+  EXPECT_EQ(sigismember(&blocked, SIGTERM), 0);
+  ::pthread_attr_destroy(&huge);
+  ::pthread_attr_destroy(&usual);
 }
 
 }  // namespace

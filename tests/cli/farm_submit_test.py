@@ -140,6 +140,31 @@ class FarmSubmit(ProgramTest):
         self.farm("submit", "scene.yaml", *SHOT)  # finished tasks end at once
         self.assertIn("is finished, skipped", (self.bin / "log").read_text())
 
+    # $STUBBORN: a job that cannot be cancelled, and makes the whole command fail before it does anything.
+    STUBBORN = """#!/bin/sh
+case " $* " in
+  *" 102 "*) echo 'scancel: error: first' >&2; echo 'scancel: error: Kill job 102' >&2; {} exit 1 ;;
+esac
+echo "$@" >> "$FAKE/cancelled"
+for job; do sed -i "/^$job /d" "$FAKE/queue"; done
+"""
+
+    def test_one_job_that_cannot_be_cancelled_spares_no_other(self):
+        self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1")
+        jobs = [line.split()[0] for line in (self.path / "farm/jobs").read_text().splitlines()]
+        (self.bin / "queue").write_text("".join(f"{job} 1 RUNNING\n" for job in jobs))
+        self.fake("scancel", self.STUBBORN.format(""))
+        error = self.farm("cancel", "farm", code=1)[1]
+        self.assertIn(f"{len(jobs) - 1} jobs cancelled, but scancel failed for 102: scancel: error: Kill job 102", error)
+        self.assertEqual(len(error.splitlines()), 1)
+        self.assertEqual(sorted((self.bin / "cancelled").read_text().split()), sorted(set(jobs) - {"102"}))
+
+    def test_a_job_that_ends_meanwhile_counts_as_cancelled(self):
+        self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1")
+        (self.bin / "queue").write_text("101 1 RUNNING\n102 1 RUNNING\n103 1 RUNNING\n")
+        self.fake("scancel", self.STUBBORN.format('sed -i "/^102 /d" "$FAKE/queue";'))
+        self.assertIn("3 jobs cancelled", self.farm("cancel", "farm")[0])
+
     def test_status_needs_no_slurm(self):
         self.farm("submit", "scene.yaml", *SHOT)
         (self.bin / "squeue").unlink()

@@ -137,11 +137,12 @@ class Measure(unittest.TestCase):
 
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
-                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,skin_ball_learned", "--set", "image.width=48",
+                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,no_cache,skin_ball_learned", "--set", "image.width=48",
                      "--set", "image.height=32", "--set", "render.gather.cache_paths=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true",
                   "path, skin_ball: exact, learned_visibility: true"]
+        self.assertIn("no_cache is left out", (self.path / "out/report.html").read_text())  # a single bounce has none
         names = ["warm-up", "reference-a", "reference-b"]
         for curve in curves:
             names += [f"{curve}, 4", f"{curve}, 16"] + ([f"{curve}, 16, other seed"] if "gather" in curve else [])

@@ -161,6 +161,9 @@ std::vector<std::string> hdr_corpus() {
                            "-Y 0 +X 0", "-Y 99999999999999999999 +X 1", "-Y 30000 +X 32767", ""}) {
     corpus.push_back(header(size) + std::string(100, '\2'));
   }
+  // Runs of whole pixels, as old files have them: three, and more than the row has.
+  corpus.push_back(header("-Y 1 +X 4") + "\5\6\7\x80\1\1\1\3");
+  corpus.push_back(header("-Y 2 +X 65535") + std::string(2, '\5') + std::string(20, '\1'));
   corpus.push_back("#?RADIANCE\n" + std::string(100000, 'x'));
   corpus.push_back("#?RADIANCE\nEXPOSURE=nan\nGAMMA=0\n" + flat.substr(11));
   return corpus;

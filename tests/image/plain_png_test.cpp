@@ -13,21 +13,10 @@
 #include "base/hash.h"
 #include "base/temporary_folder.h"
 #include "image/image_reader.h"
+#include "tests/image/kept_image.h"
 
 namespace pelage {
 namespace {
-
-/// Stores the header and the rows of an image.
-class Kept final : public ImageSink {
- public:
-  void begin(const ImageHeader& got) override { header = got, ++begun; }
-  void rows(const std::byte* rows, int count) override {
-    texels.insert(texels.end(), rows, rows + size_t(count) * header.layout.row_bytes());
-  }
-  ImageHeader header;
-  int begun = 0;
-  std::vector<std::byte> texels;
-};
 
 struct Picture {
   uint32_t width = 37, height = 23;
@@ -72,7 +61,8 @@ std::string png(const Picture& p) {
 
 class PlainPngTest : public testing::Test {
  protected:
-  std::optional<std::string> read(const std::string& bytes, Kept& kept, const std::string& name = "a.png") {
+  std::optional<std::string> read(const std::string& bytes, KeptImage& kept,
+                                  const std::string& name = "a.png") {
     write_file(folder_.path() / name, bytes);
     return read_plain_png(folder_.path() / name, kept);
   }
@@ -86,7 +76,7 @@ TEST_F(PlainPngTest, TexelsAreThoseOfOpenImageIo) {
       Picture picture;
       picture.color = color, picture.bits = bits;
       picture.before = chunk("gAMA", four_bytes(45455)) + chunk("tEXt", std::string("a\0b", 3));
-      Kept own, other;
+      KeptImage own, other;
       EXPECT_EQ(read(png(picture), own), "") << color << " " << bits;
       EXPECT_EQ(reader.read(folder_.path() / "a.png", other), "");
       EXPECT_EQ(own.begun, 1);
@@ -102,7 +92,7 @@ TEST_F(PlainPngTest, TexelsAreThoseOfOpenImageIo) {
 
 TEST_F(PlainPngTest, OtherFilesAreLeftToOpenImageIo) {
   const auto is_left = [&](const std::string& bytes, const std::string& name = "a.png") {
-    Kept kept;
+    KeptImage kept;
     return !read(bytes, kept, name) && kept.begun == 0;
   };
   EXPECT_FALSE(is_left(png({})));
@@ -124,14 +114,14 @@ TEST_F(PlainPngTest, OtherFilesAreLeftToOpenImageIo) {
 
 TEST_F(PlainPngTest, DamageIsFound) {
   const std::string whole = png({});
-  Kept good;
+  KeptImage good;
   ASSERT_EQ(read(whole, good), "");
   size_t found = 0, tried = 0;
   for (size_t at = 33; at < whole.size() - 12; at += 11) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ (1 << hash64(at) % 8));
     for (const std::string& bytes : {flipped, whole.substr(0, at)}) {
-      Kept kept;
+      KeptImage kept;
       const std::optional<std::string> damage = read(bytes, kept);
       ++tried;
       if (damage && damage->empty()) {

@@ -198,6 +198,24 @@ TEST(TexturesDeathTest, FirstLoadIsChargedForTheModule) {
   EXPECT_EXIT(std::exit(module_bytes() > 10 << 20 ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
+/// In a new process too.
+TEST(TexturesDeathTest, RadianceFilesLoadNoModule) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto costs_nothing_but_texels = [] {
+    const TemporaryFolder place;
+    std::ofstream(place.path() / "a.hdr") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n@@@\x81"
+                                             "abc\x80";
+    MemoryLedger ledger;
+    TextureLibrary library(ledger);
+    const auto texture = library.load({place.path() / "a.hdr", {}});
+    constexpr int kTexels = 2 * 3 * 4, kRow = 2 * 4;
+    return texture->channel(0.25f, 0.5f, 0) == 0.5f && ledger.peak(MemoryTag::kLibraries) == 0 &&
+           ledger.current(MemoryTag::kTextures) == kTexels &&
+           ledger.peak(MemoryTag::kTextures) == 2 * kTexels + kRow;
+  };
+  EXPECT_EXIT(std::exit(costs_nothing_but_texels() ? 0 : 1), testing::ExitedWithCode(0), "");
+}
+
 TEST_F(Textures, ReadRealEnvironments) {
   PELAGE_REQUIRE_DATA();
   for (const char* name : {"studio_small_03_1k.hdr", "venice_sunset_1k.hdr"}) {
@@ -214,7 +232,7 @@ TEST_F(Textures, ReadRealEnvironments) {
 TEST_F(Textures, RefuseATruncatedEnvironment) {
   PELAGE_REQUIRE_DATA();
   const std::string whole = read_file(data_folder() / "env/studio_small_03_1k.hdr");
-  EXPECT_NE(message_of(write("cut.hdr", whole.substr(0, whole.size() / 2))), "");
+  EXPECT_EQ(message_of(write("cut.hdr", whole.substr(0, whole.size() / 2))), "is truncated");
   const std::string png = read_file(data_folder() / "mesh/spot_texture.png");
   EXPECT_EQ(message_of(write("cut.png", png.substr(0, png.size() / 2))), "is truncated");
 }

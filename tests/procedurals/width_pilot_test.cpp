@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "procedurals/coat_stats.h"
+#include "procedurals/parallel_rays.h"
 #include "tests/procedurals/square_groom.h"
 
 namespace pelage {
@@ -60,6 +61,21 @@ TEST(WidthPilot, DependsOnNeitherLeavesNorThreads) {
   const auto whole = fit(*meadow(ledger, 16, 8000), ledger, 1);
   ASSERT_TRUE(whole);
   EXPECT_EQ(fit(*meadow(ledger, 16, 111), ledger, 3)->factors, whole->factors);
+}
+
+TEST(WidthPilot, ChargesItsStrandsAndRaysWhileItRuns) {
+  MemoryLedger grooms, ledger;
+  NoProgress progress;
+  const Workers workers(1);
+  const auto groom = meadow(grooms, 1, 8000);
+  const Simplification seen({}, LodView(), coat_stats(*groom, nullptr, workers), 1);
+  fit_widths(*groom, nullptr, nullptr, seen, 2 / std::sqrt(float(kStrands)), Job{workers, ledger, progress});
+  // All strands of three segments are around a root in the middle of the square, and half that far around
+  // starts a quarter of the rays: two per strand and direction.
+  constexpr int64_t kPieces = kStrands * 3 * sizeof(StrandPiece), kRays = kStrands / 4 * 2 * 8 / 2 * 28;
+  EXPECT_GT(ledger.peak(MemoryTag::kGrooms), kPieces / 2 + kRays / 2);
+  EXPECT_LT(ledger.peak(MemoryTag::kGrooms), 8 * (kPieces + kRays));
+  EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
 }
 
 TEST(WidthPilot, OfShortStrandsThatNeverMeetIsUnknown) {

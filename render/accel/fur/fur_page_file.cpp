@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-const std::string kKind = "fur";
+const std::string kFurKind = "fur";
 constexpr size_t kTables = 4;  // sections after the pages
 
 struct Head {
@@ -44,7 +44,7 @@ ContentHash entry_key(const ContentHash& key) {
 }  // namespace
 
 FurPageFile::Writer::Writer(const ContentStore& store, const ContentHash& key, size_t page_bytes)
-    : entry_(store.writer(kKind, entry_key(key))),
+    : entry_(store.writer(kFurKind, entry_key(key))),
       cutter_([this](std::span<const std::byte> page) { entry_.add(page); }, page_bytes) {}
 
 bool FurPageFile::Writer::commit(const WarningSink& warn) {
@@ -77,7 +77,7 @@ bool FurPageFile::Writer::commit(const WarningSink& warn) {
 
 std::optional<FurPageFile> FurPageFile::open(const ContentStore& store, const ContentHash& key,
                                              const WarningSink& warn) {
-  std::optional<StoredSections> file = store.open_sections(kKind, entry_key(key), warn);
+  std::optional<StoredSections> file = store.open_sections(kFurKind, entry_key(key), warn);
   if (!file) return {};
   try {
     return FurPageFile(std::move(*file));
@@ -97,7 +97,7 @@ std::vector<T> FurPageFile::values(size_t section) const {
 }
 
 FurPageFile::FurPageFile(StoredSections file) : file_(std::move(file)) {
-  if (file_.kind() != kKind || file_.section_count() < kTables) refuse(file_);
+  if (file_.kind() != kFurKind || file_.section_count() < kTables) refuse(file_);
   const size_t pages = file_.section_count() - kTables;
   const auto head = values<Head>(pages);
   if (head.size() != 1 || head[0].version != kVersion) refuse(file_);

@@ -15,11 +15,35 @@ std::vector<std::string> ids(const std::vector<ShadingCurve>& curves) {
 }
 
 TEST(ShadingCurves, HaveTheNamesOfTheParts) {
-  const SceneDescription scene;
+  SceneDescription scene;
+  scene.crowds.items.resize(1);
   EXPECT_EQ(ids(shading_curves(scene, {})),
             std::vector<std::string>(std::begin(kShadingParts), std::end(kShadingParts)));
   EXPECT_EQ(ids(shading_curves(scene, {"reuse", "gather"})),
             (std::vector<std::string>{"path", "gather", "reuse"}));
+}
+
+TEST(ShadingCurves, OmitTheCacheSettingThatGatherHasAnyway) {
+  const auto which = [](int bounces, std::optional<bool> cache, size_t crowds = 0, size_t skins = 1) {
+    SceneDescription scene;
+    scene.render.bounces = bounces;
+    scene.render.gather.cache = cache;
+    scene.crowds.items.resize(crowds);
+    scene.characters.items.resize(1);
+    scene.characters.items[0].value.parts.resize(skins);
+    std::vector<std::string> found = ids(shading_curves(scene, {"cache", "no_cache"}));
+    found.erase(found.begin());  // path
+    return found;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(which(1, {}), Ids{"cache"});
+  EXPECT_EQ(which(2, {}), Ids{"no_cache"});
+  EXPECT_EQ(which(2, {}, 1), (Ids{"cache", "no_cache"})) << "a crowd may be small";
+  EXPECT_EQ(which(2, {}, 0, 9), (Ids{"cache", "no_cache"})) << "not all of them may be drawn";
+  EXPECT_EQ(which(1, {}, 1), Ids{"cache"});
+  EXPECT_EQ(which(8, {}, 1), Ids{"no_cache"});
+  EXPECT_EQ(which(4, true, 1), Ids{"no_cache"});
+  EXPECT_EQ(which(8, false), Ids{"cache"});
 }
 
 TEST(ShadingCurves, ChangeOneSettingOfTheScene) {

@@ -15,7 +15,7 @@
 namespace pelage {
 namespace {
 
-const float kInfinity = std::numeric_limits<float>::infinity();
+const float kInfinitelyFar = std::numeric_limits<float>::infinity();
 
 FilmLayers two_lights() { return FilmLayers::make({{"key", false}, {"sky", true}}, 2); }
 
@@ -75,7 +75,7 @@ TEST(Film, AveragesSamplesAndDropsWhatIsNotFinite) {
   sample.radiance.y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(film.add(2, 1, sample, parts));
   sample.radiance.y = 0;
-  parts[0].z = kInfinity;
+  parts[0].z = kInfinitelyFar;
   EXPECT_FALSE(film.add(2, 1, sample, parts));
 
   EXPECT_EQ(film.samples(2, 1), 2u);
@@ -96,7 +96,7 @@ TEST(Film, KeepsTheDataOfTheFrontMostSampleWithinThePixel) {
     sample.offset = V2f(inside ? 0.0f : 0.9f);
     film.add(0, 0, sample, {});
   };
-  EXPECT_EQ(film.surface(0, 0).depth, kInfinity);
+  EXPECT_EQ(film.surface(0, 0).depth, kInfinitelyFar);
   add(2, 1, false);
   EXPECT_EQ(film.surface(0, 0).id, 1u);
   add(5, 2, true);  // farther, but within the pixel
@@ -127,7 +127,7 @@ TEST(Film, WritesEveryChannelByItsName) {
     EXPECT_TRUE(channel && channel->type == ChannelType::kFloat) << name;
     return channel ? channel->pixels[pixel] : 0.0f;
   };
-  EXPECT_EQ(value("Z", 0), kInfinity);
+  EXPECT_EQ(value("Z", 0), kInfinitelyFar);
   EXPECT_EQ(value("Z", 1), 3);
   EXPECT_EQ(value("N.Y", 1), 1);
   EXPECT_EQ(value("tangent.X", 1), 1);

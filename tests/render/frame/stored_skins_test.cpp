@@ -99,6 +99,17 @@ TEST_F(StoredSkinsTest, PiecesAndTrianglesAreThoseOfTheSkins) {
   EXPECT_TRUE(warnings_.lines.empty());
 }
 
+TEST_F(StoredSkinsTest, PiecesAreInMemoryOnce) {
+  const RenderScene plain = scene(false), stored = scene(true);
+  const FrameChunks made(plain, job());
+  FrameChunks(stored, job()).store_skins(job());
+  const StoredSkins skins(StoredSections(entry()), stored, [](const std::string&) {});
+  size_t faces = 0;
+  for (const SkinChunk& chunk : skins.pieces()) faces += chunk.piece.faces.size() * sizeof(uint32_t);
+  EXPECT_GT(faces, 0u);
+  EXPECT_LE(FrameChunks(stored, job()).bytes() + faces, made.bytes() + skins.bytes());
+}
+
 TEST_F(StoredSkinsTest, AnotherViewHasAnotherEntry) {
   const RenderScene near = scene(true), far = scene(true, 3), plain = scene(false, 3);
   FrameChunks(near, job()).store_skins(job());
