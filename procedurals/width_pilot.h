@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-/// Distance from the origin of a secondary ray from which on the ray sees the fraction `share` of the
+/// Returns the distance from its origin beyond which a secondary ray sees only the fraction `share` of the
 /// strands: twice the distance between these strands. `spacing`: distance between all strands.
 float near_distance(float share, float spacing);
 

@@ -90,8 +90,8 @@ StoredSkins::StoredSkins(StoredSections file, const RenderScene& scene, WarningS
   for (size_t i = 0; i < stored.size(); ++i) {
     const StoredPiece& s = stored[i];
     // Pieces of a skin are adjacent, and every skin has one.
-    const uint32_t next = i == 0 ? 0 : stored[i - 1].skin;
-    if (s.skin >= scene.skins.size() || (i == 0 ? s.skin != 0 : s.skin != next && s.skin != next + 1))
+    const uint32_t previous = i == 0 ? 0 : stored[i - 1].skin;
+    if (s.skin >= scene.skins.size() || (i == 0 ? s.skin != 0 : s.skin != previous && s.skin != previous + 1))
       refuse(file_);
     constexpr uint64_t kMax = uint64_t(1) << 31;
     if (s.faces > faces.size() - used || s.vertices >= kMax || s.triangles >= kMax) refuse(file_);

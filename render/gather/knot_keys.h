@@ -29,11 +29,11 @@ struct KnotKey {
 /// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots; the levels
 /// along its two parameters follow from the size of the face in the picture. A hit between knots is assigned
 /// at random to one of the knots around it. The probability of a knot is its linear interpolation weight. On
-/// average, light is therefore interpolated linearly between knots. Strands so thin that a knot would be
-/// seen by less than one sample are assigned to the cells of their coat instead.
+/// average, light is therefore interpolated linearly between knots. Strands so thin that fewer
+/// than four samples would see a knot are assigned to the cells of their coat instead.
 ///
 /// The knots of a coat whose strands grow in the same cube of the skin (CoatCells::patch()) are in one patch
-/// if they are at the same eighth of a strand or, on strands with more than 16 knots, at the
+/// if they are at the same eighth of a strand or, on strands with more than 17 knots, at the
 /// same pair of knots.
 ///
 /// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone

@@ -25,8 +25,8 @@ struct GatherParams {
   float min_width = 0;                         ///< width at which the camera sees thinner strands, pixels
   float light_rays = 3;                        ///< mean count of shadow rays per visible sample
   float paths = 1;  ///< mean count of indirect paths per visible sample, before roulette
-  std::optional<bool>
-      cache;  ///< whether indirect paths end in the reflection cache; empty: see RenderParams::uses_cache()
+  /// Whether indirect paths end in the reflection cache; empty: see RenderParams::uses_cache().
+  std::optional<bool> cache;
   float cache_paths = 0.25f;  ///< paths that fill the cache / camera samples
   ByteSize memory{};          ///< max memory of the cache; 0: what `render.memory` leaves
 

@@ -106,7 +106,7 @@ struct RenderParams {
     return gather.visibility.value_or(GatherVisibility::kRaster) == GatherVisibility::kRaster &&
            in_fur_trees(accel, curves);
   }
-  /// Scenes with more skins are crowds. They have no balls by default: they would take more time than they
+  /// Scenes with more skins are crowds. Crowds have no balls by default: balls would take more time than they
   /// save.
   static constexpr size_t kFewSkins = 8;
   /// Returns what balls inside `skins` skins are used for. By default, `path` traces every ray, because it is
