@@ -178,15 +178,16 @@ float Simplification::fade(float share, float priority) {
 }
 
 float Simplification::gain(float share) const {
-  if (!params_.width_gain || share >= 1) return 1;
+  return params_.width_gain && share < 1 ? unfitted_gain(share) * fit_.ratio(share, fraction_) : 1.0f;
+}
+
+float Simplification::unfitted_gain(float share) const {
   const double r = std::clamp(stats_.area_share, kMinAreaShare, 0.5f);
   const float at = std::sqrt(share) * kAreaSteps;
   const auto before = std::min(static_cast<size_t>(at), kAreaSteps - 1);
   const float t = at - static_cast<float>(before);
   const float area = area_[before] * (1 - t) + area_[before + 1] * t;
-  // Relative to the strands that other rays see.
-  const float fit = fit_.at(share) / fit_.at(std::min(1.0f, share / fraction_));
-  return fit * area * static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
+  return area * static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
 }
 
 float Simplification::spread(float share) const {
@@ -219,7 +220,20 @@ float Simplification::max_width_factor(float distance) const {
   if (!params_.motion_blur && !params_.depth_of_field) min = std::max(min, share(pixels, 0, 0, 0));
   min = std::min(min, 1.0f) * (params_.back_facing ? kMinBackFacing : 1.0f);
   min = std::max(min, min_kept(0));
-  return gain(distant_share(std::min(min, 1.0f))) * (1 + 1e-4f);
+  return max_gain(distant_share(std::min(min, 1.0f))) * (1 + 1e-4f);
+}
+
+float Simplification::max_gain(float min_share) const {
+  if (!params_.width_gain || fraction_ == 1) return gain(min_share);
+  // Small steps, because the two factors may change in opposite directions.
+  constexpr float kStep = 1.05f;
+  float max = 1;
+  for (float low = min_share, high = 1; low < 1; low = high) {
+    high = std::min(low * kStep, fit_.end_of_range(low, fraction_));
+    max =
+        std::max(max, unfitted_gain(low) * std::max(fit_.ratio(low, fraction_), fit_.ratio(high, fraction_)));
+  }
+  return max;
 }
 
 float Simplification::contrast(float share) const {

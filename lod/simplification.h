@@ -146,6 +146,10 @@ class Simplification {
   /// Returns the share of which share() is `seen` without distant().
   float distant_share(float seen) const;
   void tabulate_area();
+  /// Returns gain() without the factors of distant(): it decreases with the share.
+  float unfitted_gain(float share) const;
+  /// Returns an upper bound of gain() over all shares from `min_share` to 1.
+  float max_gain(float min_share) const;
 
   static constexpr size_t kAreaSteps = 32;
   SimplificationParams params_;

@@ -30,6 +30,21 @@ struct WidthFit {
     const float t = quarterings - static_cast<float>(before);
     return factors[before] * (1 - t) + factors[before + 1] * t;
   }
+
+  /// Returns the factor at `share`, relative to the factor of a coat with 1 / `fraction` times as many
+  /// strands.
+  float ratio(float share, float fraction) const { return at(share) / at(std::min(1.0f, share / fraction)); }
+  /// Returns the end of the range of shares that begins at `share` and in which ratio() is monotonic: there
+  /// it is a quotient of two functions that are linear in the logarithm of the share. At most 1.
+  float end_of_range(float share, float fraction) const {
+    float end = 1, quartered = 1;
+    for (size_t i = 0; i <= kQuarterings; ++i, quartered /= 4) {
+      for (const float knot : {quartered, quartered * fraction}) {
+        if (knot > share) end = std::min(end, knot);
+      }
+    }
+    return end;
+  }
 };
 
 }  // namespace pelage
