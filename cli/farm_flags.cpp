@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <regex>
 #include <vector>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -30,6 +32,13 @@ bool parse_regions(const std::string& text, int& columns, int& rows) {
   const auto [stop, second] = std::from_chars(x + 1, end, rows);
   const auto fits = [](int count) { return count >= 1 && count <= kMaxDivisions; };
   return second == std::errc() && stop == end && fits(columns) && fits(rows);
+}
+
+/// Returns whether sbatch reads `text` as a time limit: minutes, minutes:seconds, hours:minutes:seconds,
+/// days-hours, days-hours:minutes, days-hours:minutes:seconds, UNLIMITED or INFINITE.
+bool is_slurm_time(const std::string& text) {
+  const std::regex form("(\\d+-)?\\d+(:\\d\\d?){0,2}|UNLIMITED|INFINITE", std::regex::icase);
+  return std::regex_match(text, form);
 }
 
 }  // namespace
@@ -83,7 +92,12 @@ void interpret_farm(const FarmTexts& texts, const std::string& output, FarmOptio
                 "--dir " + quote(options.folder) + ": all frames share the folder, without a frame number");
   if (!texts.regions.empty() && !parse_regions(texts.regions, options.columns, options.rows)) {
     throw Error(ErrorKind::kArguments,
-                "--regions: expected columns and rows such as 4x4, got " + quote(texts.regions));
+                fmt::format("--regions: expected columns and rows such as 4x4, each at most {}, got {}",
+                            kMaxDivisions, quote(texts.regions)));
+  }
+  if (!options.time.empty() && !is_slurm_time(options.time)) {
+    throw Error(ErrorKind::kArguments,
+                "--time: expected minutes, or a time such as 2:30:00 or 1-12:00, got " + quote(options.time));
   }
   CheckpointOptions checkpoint;
   interpret_checkpoint(texts.every, checkpoint);

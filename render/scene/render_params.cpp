@@ -68,12 +68,13 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
                  "traced; the fur dims light by its path through a shell around the ball "
                  "(approximate). `off`: every shadow ray is traced",
          .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off"});
-  s.key("learned_visibility", &RenderParams::learned_visibility,
-        {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
-                 "visible from where; shadow rays then choose parts that are probably hidden less "
-                 "often, with the same mean of the picture. `reject`: never chosen if all pilot rays "
-                 "missed, which darkens the picture. With `integrator: gather`, only indirect paths use "
-                 "it"});
+  s.key(
+      "learned_visibility", &RenderParams::learned_visibility,
+      {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
+               "visible from where; shadow rays then choose parts that are probably hidden less "
+               "often, with the same mean of the picture. `reject`: never chosen if all pilot rays "
+               "were blocked, which darkens the picture. With `integrator: gather`, only indirect paths use "
+               "it"});
   s.key("screen_door", &RenderParams::screen_door,
         {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
                  "whose width is width times opacity. These rays then end at the first strand, which saves "

@@ -119,7 +119,9 @@ class Farm(ProgramTest):
     def test_mistakes(self):
         plan = ["plan", "scene.yaml", "-o", "a.%04d.exr"]
         self.assertIn("farm: unknown action 'plam'; did you mean 'plan'?", self.refused("plam", *plan[1:]))
-        self.assertIn("--regions: expected columns and rows such as 4x4, got '4'", self.refused(*plan, "--regions", "4"))
+        self.assertIn("--regions: expected columns and rows such as 4x4, each at most 256, got '4'", self.refused(*plan, "--regions", "4"))
+        self.assertIn("--time: expected minutes, or a time such as 2:30:00 or 1-12:00, got 'banana'",
+                      self.refused("submit", *plan[1:], "--dry-run", "--time", "banana"))
         self.assertIn("cannot all be written to", self.refused("plan", "scene.yaml", "-o", "a.exr", "--frames", "1-2"))
         for value, why in ("adaptive={rule: two-stage}", "the sample count of a pixel depends on the whole picture"), (
                 "time_limit=5", "regions would have different sample counts"):
