@@ -2,7 +2,9 @@
 #include "render/reflection/cell_keys.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -87,21 +89,32 @@ TEST_F(CellKeysTest, DividesCoatsPartsOfStrandsAndDirections) {
   EXPECT_EQ(apart.size(), 8u);
 }
 
-TEST_F(CellKeysTest, PartsOfLongStrandsAreShort) {
-  const auto parts = [&](float length) {
+TEST_F(CellKeysTest, PartsOfLongStrandsAreShortAndLongerInLargerCells) {
+  /// Counts the parts of a strand, by size of cells. Expects that larger parts consist of whole smaller ones.
+  const auto parts = [&](float pixels) {
+    const float length = pixels * 0.04f;
     StrandArrays a = one_strand({V3f(0), V3f(0, length / 2, 0), V3f(0, length, 0)}, 1e-3f).release();
     HitGeometry met;
     met.strand = Strands(std::move(a));
-    std::set<CellPath> cells;
-    for (int i = 0; i < 2000; ++i)
-      cells.insert(*CellKeys(scene_).of(ray_, key_scene::hit_on((static_cast<float>(i) + 0.5f) / 2000), met));
-    return cells.size();
+    std::array<std::set<uint64_t>, 3> cells;
+    std::set<std::pair<uint64_t, uint64_t>> small_in_large;
+    for (int i = 0; i < 2000; ++i) {
+      const Hit hit = key_scene::hit_on((static_cast<float>(i) + 0.5f) / 2000);
+      const CellPath path = *CellKeys(scene_).of(ray_, hit, met);
+      for (size_t level = 0; level < 3; ++level) cells[level].insert(path[level]);
+      small_in_large.emplace(path[0], path[1]);
+    }
+    EXPECT_EQ(small_in_large.size(), cells[0].size());
+    return std::array{cells[0].size(), cells[1].size(), cells[2].size()};
   };
+  using Counts = std::array<size_t, 3>;
   part_ = 3;
-  EXPECT_EQ(parts(0.01f), 4u);
-  EXPECT_EQ(parts(4 * 0.04f * CellKeys::kPartPixels * 0.99f), 4u);
-  EXPECT_EQ(parts(4 * 0.04f * CellKeys::kPartPixels * 1.01f), 8u);
-  EXPECT_EQ(parts(1000), 128u);
+  EXPECT_EQ(parts(0.3f), (Counts{4, 4, 4}));
+  EXPECT_EQ(parts(4 * CellKeys::kPartPixels * 0.99f), (Counts{4, 4, 4}));
+  EXPECT_EQ(parts(4 * CellKeys::kPartPixels * 1.01f), (Counts{8, 4, 4}));
+  EXPECT_EQ(parts(8 * CellKeys::kPartPixels * 1.01f), (Counts{16, 8, 4}));
+  EXPECT_EQ(parts(16 * CellKeys::kPartPixels * 1.01f), (Counts{32, 16, 8}));
+  EXPECT_EQ(parts(25000), (Counts{128, 128, 128}));
 }
 
 TEST_F(CellKeysTest, TheTwoSidesOfASkinAreApart) {
@@ -112,6 +125,31 @@ TEST_F(CellKeysTest, TheTwoSidesOfASkinAreApart) {
   back.uv.clear();
   scene_.fur[0].rest = shapes::surface_of(back);
   EXPECT_NE(cells({0, 0.4f, 0.4f})[0], cell[0]);
+}
+
+/// A thin skin that leans: rays in the same octant hit it from both sides.
+TEST_F(CellKeysTest, TheInsideOfASkinIsApartFromItsOutside) {
+  scene_.skins.resize(1);
+  HitGeometry met;
+  met.triangle.positions = {0, 0, 0, 1, -1, 0, 1, 1, -2};  // its normal is (1, 1, 1)
+  met.triangle.normals = met.triangle.positions;
+  met.triangle.triangles = {0, 1, 2};
+  met.triangle.faces = {0};
+  met.triangle.vertex_uv.assign(3, V2f(0));
+  Hit hit;
+  hit.kind = HitKind::kSkin;
+  hit.distance = 1;
+  hit.u = hit.v = 0.25f;
+  for (const bool rest : {false, true}) {
+    if (rest) scene_.skins[0].rest = shapes::surface_of(shapes::square_cage(1));
+    const auto hit_along = [&](const V3f& direction) {
+      ray_.direction = direction;
+      return *CellKeys(scene_).of(ray_, hit, met);
+    };
+    const CellPath outside = hit_along(V3f(0.1f, 0.2f, -0.9f)), inside = hit_along(V3f(0.9f, 0.2f, -0.1f));
+    for (size_t level = 0; level < outside.size(); ++level) EXPECT_NE(outside[level], inside[level]);
+    EXPECT_EQ(outside, hit_along(V3f(0.2f, 0.1f, -0.9f)));
+  }
 }
 
 TEST_F(CellKeysTest, DiffuseSkinsHaveCellsAndGlossyOnesHaveNone) {
