@@ -38,7 +38,8 @@ bool parse_regions(const std::string& text, int& columns, int& rows) {
 /// days-hours, days-hours:minutes, days-hours:minutes:seconds, UNLIMITED or INFINITE.
 bool is_slurm_time(const std::string& text) {
   const std::regex form("(\\d+-)?\\d+(:\\d\\d?){0,2}|UNLIMITED|INFINITE", std::regex::icase);
-  return std::regex_match(text, form);
+  constexpr size_t kLongest = 32;  // std::regex recurses once per character
+  return text.size() <= kLongest && std::regex_match(text, form);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class BounceSweep {
     runs.push_back({method, is_warm_up, bounces, std::move(outcome), runner_.picture(variant)});
   }
 
-  /// Compares all pictures with that of `path` with most bounces.
+  /// Compares each picture with the picture of `path` that has the most bounces.
   void compare() {
     const BounceRun* most = nullptr;
     for (const BounceRun& run : runs) {

@@ -27,7 +27,7 @@ struct BounceRun {
   int bounces = 0;
   Outcome outcome;
   std::filesystem::path picture;
-  double light = NAN;  ///< mean luminance of fur, relative to `path` with most bounces
+  double light = NAN;  ///< mean luminance of fur, relative to the picture of `path` with the most bounces
 };
 
 /// Returns `path`, and `gather` without and with the reflection cache.

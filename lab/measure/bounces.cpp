@@ -108,10 +108,11 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
         bounce_plot(runs)}});
   report.sections.push_back(
       {"Light",
-       {select(report.data, {"variant", "light", "light_of_last_bounces", "light_off"},
-               "Mean luminance of fur, relative to path with most bounces; the part that came with the last "
-               "bounces, those that the row above does not have; and the difference from path with as many "
-               "bounces. The noise of two pictures is part of this difference.")}});
+       {select(
+           report.data, {"variant", "light", "light_of_last_bounces", "light_off"},
+           "Mean luminance of fur, relative to path with the most bounces; the part that came with the last "
+           "bounces, those that the row above does not have; and the difference from path with as many "
+           "bounces. The noise of two pictures is part of this difference.")}});
   report.sections.push_back(
       {"Reflection cache",
        {select(report.data, {"variant", "cells", "paths_per_cell", "lookups", "found", "cache_bytes"},

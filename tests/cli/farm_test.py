@@ -122,6 +122,7 @@ class Farm(ProgramTest):
         self.assertIn("--regions: expected columns and rows such as 4x4, each at most 256, got '4'", self.refused(*plan, "--regions", "4"))
         self.assertIn("--time: expected minutes, or a time such as 2:30:00 or 1-12:00, got 'banana'",
                       self.refused("submit", *plan[1:], "--dry-run", "--time", "banana"))
+        self.assertIn("--time: expected minutes", self.refused("submit", *plan[1:], "--dry-run", "--time", "1" * 100000))
         self.assertIn("cannot all be written to", self.refused("plan", "scene.yaml", "-o", "a.exr", "--frames", "1-2"))
         for value, why in ("adaptive={rule: two-stage}", "the sample count of a pixel depends on the whole picture"), (
                 "time_limit=5", "regions would have different sample counts"):
