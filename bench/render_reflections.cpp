@@ -26,7 +26,8 @@ void read(benchmark::State& state) {
     table.add(key, 1, radiance);
   }
   table.finish(8);
-  const ReflectionSlots slots(table, lights, 1);
+  ReflectionSlots slots(lights, table.size());
+  slots.add(table, 1);
   const size_t stride = slots.bytes() / sizeof(float) / cells;
   const std::vector<float> large(stride * cells, 1.0f);
   struct Read {
@@ -50,7 +51,7 @@ void read(benchmark::State& state) {
   };
   for (auto _ : state) {
     const auto of_cache = [&](size_t slice) {
-      read_all(slice, [&](const Read& at) { return slots.find(at.key)[0].x; });
+      read_all(slice, [&](const Read& at) { return slots.find(at.key, 0)[0].x; });
     };
     const Interleaved to_load(kSlices, kPasses, of_cache, [&](size_t slice) {
       read_all(slice, [&](const Read& at) { return large[at.cell * stride]; });

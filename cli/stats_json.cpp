@@ -95,6 +95,8 @@ std::string statistics_json(const Statistics& s) {
       {"knot_samples", s.frames.knots.samples},
       {"reflection_cells", s.frames.reflections.cells},
       {"reflection_paths", s.frames.reflections.paths},
+      {"reflection_slices", s.frames.reflections.slices},
+      {"reflection_bytes", s.frames.reflections.bytes},
       {"reflection_lookups", s.frames.reflections.lookups},
       {"reflections_found", s.frames.reflections.found},
       {"rays", rays_json(s.frames.rays)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace pelage {
 namespace {
@@ -35,14 +36,37 @@ double height_over(const std::array<V3d, 3>& corners, const V3d& point) {
   return to.dot(normal) / normal.z;
 }
 
+/// Returns, for each vertex, one of the vertices that are at the same position at every motion key.
+std::vector<uint32_t> welded_vertices(const SkinMesh& mesh) {
+  std::vector<uint32_t> order(mesh.vertex_count()), welded(mesh.vertex_count());
+  std::iota(order.begin(), order.end(), 0u);
+  /// Compares the positions of two vertices by motion key and axis: negative, 0 or positive.
+  const auto compare = [&](uint32_t a, uint32_t b) {
+    for (int key = 0; key < mesh.motion_keys; ++key) {
+      const V3f p = mesh.position(a, key), q = mesh.position(b, key);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] != q[axis]) return p[axis] < q[axis] ? -1 : 1;
+      }
+    }
+    return 0;
+  };
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return compare(a, b) < 0; });
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool is_first = i == 0 || compare(order[i - 1], order[i]) != 0;
+    welded[order[i]] = is_first ? order[i] : welded[order[i - 1]];
+  }
+  return welded;
+}
+
 }  // namespace
 
 bool is_closed(const SkinMesh& mesh) {
+  const std::vector<uint32_t> welded = welded_vertices(mesh);
   std::vector<std::array<uint32_t, 3>> edges;  // lower vertex, higher vertex, direction
   edges.reserve(mesh.triangles.size());
   for (size_t t = 0; t < mesh.triangle_count(); ++t) {
     for (size_t i = 0; i < 3; ++i) {
-      const uint32_t a = mesh.triangles[3 * t + i], b = mesh.triangles[3 * t + (i + 1) % 3];
+      const uint32_t a = welded[mesh.triangles[3 * t + i]], b = welded[mesh.triangles[3 * t + (i + 1) % 3]];
       if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1u : 0u});
     }
   }

@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// Returns whether a mesh has no boundary: each directed edge is used as often as its opposite. Vertices at
-/// the same position with different indices count as different.
+/// Returns whether a mesh has no boundary: each directed edge is used as often as its opposite. Vertices that
+/// have the same position at every motion key count as one, because meshes are often split along the seams
+/// of their texture coordinates.
 bool is_closed(const SkinMesh& mesh);
 
 /// Winding numbers of a closed mesh at one motion key: how often the surface encloses a point. Every path

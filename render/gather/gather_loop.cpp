@@ -42,14 +42,13 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   return {tiles,
           reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + drawn,
                   "the sample buffer of the tiles that are rendered at once"),
-          uses_cache(scene) ? CacheFill::reserve(scene, job) : MemoryCharge{}};
+          uses_cache(scene) ? std::optional(CacheFill::reserve(scene, job)) : std::nullopt};
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
                        const PathOptions& options, Memory& memory, bool fits, const Job& job,
                        const Stopwatch& clock, FrameResult& result, FrameWatch* watch, FrameSaver* saver)
     : scene_(scene),
-      cache_memory_(std::move(memory.cache)),
       tile_(scene, accel, chunks, result.film.layers(), options, cache_),
       job_(job),
       clock_(clock),
@@ -62,7 +61,9 @@ GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const Resid
       tiles_(tiles_of(result.window.film)),
       sample_counts_(tiles_.size()),
       free_(memory.tiles) {
-  if (uses_cache(scene)) fill_.emplace(scene, accel, result.film.layers().splat.has_value(), options);
+  if (memory.cache) {
+    fill_.emplace(scene, accel, result.film.layers().splat.has_value(), options, std::move(*memory.cache));
+  }
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
     idle_.push_back(scratch_.back().get());
@@ -96,7 +97,7 @@ uint32_t GatherLoop::portion(uint32_t first, uint32_t end) const {
 }
 
 void GatherLoop::run() {
-  if (fill_) fill_->run(std::move(cache_memory_), job_, clock_, cache_);
+  if (fill_) fill_->run(job_, clock_, cache_);
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
   const double pixels = static_cast<double>(result_.film.width()) * result_.film.height();
   constexpr double kNever = std::numeric_limits<double>::infinity();

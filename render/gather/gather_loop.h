@@ -35,7 +35,7 @@ class GatherLoop {
   struct Memory {
     int tiles = 0;  ///< max count of such tiles
     MemoryCharge charge;
-    MemoryCharge cache;  ///< of the reflection cache
+    std::optional<CacheFill::Memory> cache;  ///< of the reflection cache
   };
   /// Reserves memory for one tile per thread. Call before chunks take the rest of the memory. If the tiles of
   /// all threads together would need more than an eighth of `render.memory`, reserves memory for fewer tiles,
@@ -87,7 +87,6 @@ class GatherLoop {
   const RenderScene& scene_;
   std::optional<CacheFill> fill_;  // empty: no reflection cache
   std::optional<ReflectionCache> cache_;
-  MemoryCharge cache_memory_;
   const GatherTile tile_;
   const Job job_;
   const Stopwatch& clock_;

@@ -78,20 +78,20 @@ class DirectLight {
   }
 
   /// Draws the candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
-  /// would contribute nothing, so leaving them out changes no expected value. Returns the sum of
-  /// LightPoint::luminance over them, which is 0 where no light arrives. `u`: two random numbers in [0, 1).
+  /// would contribute nothing, so leaving them out changes no expected value. `u`: two random numbers in [0, 1).
   /// `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose scattering is
   /// `value`.
   template <class LobePdf>
-  double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
-                 DirectLightScratch& scratch) const;
+  void propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
+               DirectLightScratch& scratch) const;
 
-  /// Selects candidates as targets of shadow rays, as many as the count of rays; those with larger factors
-  /// more often. Calls `shadow(target, factor)` for each of them. If nothing blocks the shadow ray, the light
-  /// that arrives is target.arriving * factor. `total`: the result of propose(). `u`: a random number in [0,
-  /// 1).
+  /// Returns the count of shadow rays per scatter point, unless choose() is asked for more.
+  uint32_t rays() const { return rays_; }
+  /// Selects candidates as targets of shadow rays, `rays` on average, with repetitions; those with larger
+  /// factors more often. Calls `shadow(target, factor)` for each of them. If nothing blocks the shadow ray,
+  /// the light that arrives is target.arriving * factor. `u`: a random number in [0, 1).
   template <class Shadow>
-  void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
+  void choose(float rays, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
 
   /// Calls `found(light, hit, weight)` for each light that a ray in `direction` intersects before `distance`.
   /// The direction was sampled from the lobes with density `lobe_pdf`. `weight`: weight of this technique.
@@ -124,23 +124,18 @@ class DirectLight {
 };
 
 template <class LobePdf>
-double DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
-                            DirectLightScratch& scratch) const {
+void DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
+                          DirectLightScratch& scratch) const {
   const uint32_t count = candidates();
   scratch.points.clear();
   scratch.proved = 0;
-  double total = 0;
   for (uint32_t k = 0; k < count; ++k) {
     // Each point alone is uniformly distributed; together they form a lattice that takes the lights in turn.
     const float turn = u.y + static_cast<float>(k) * kGolden;
     const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
                  std::min(turn - std::floor(turn), kBelowOne));
-    if (const auto sample = light_point(point, at, lobe_pdf, scratch)) {
-      scratch.points.push_back(*sample);
-      total += sample->luminance;
-    }
+    if (const auto sample = light_point(point, at, lobe_pdf, scratch)) scratch.points.push_back(*sample);
   }
-  return total;
 }
 
 template <class LobePdf>
@@ -177,15 +172,14 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 }
 
 template <class Shadow>
-void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
+void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch,
                          const Shadow& shadow) const {
   // Points are drawn in proportion to the unoccluded light that they contribute, times the learned factor.
   // The step makes up for the factors: fewer rays would add more noise than they save time.
-  if (!(total > 0)) return;
   double likely = 0;
   for (const LightPoint& point : scratch.points) likely += double{point.luminance * point.factor};
   if (!(likely > 0)) return;
-  SystematicChoice choice(likely / rays_, u);
+  SystematicChoice choice(likely / double{rays}, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
   for (const LightPoint& point : scratch.points) {
     const float mass = point.luminance * point.factor;

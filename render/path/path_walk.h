@@ -31,7 +31,8 @@ struct PathState {
 };
 
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex, a
-/// path traces up to `render.light_samples` shadow rays to lights (DirectLight), and draws one direction from
+/// path traces up to `render.light_samples` shadow rays to lights (DirectLight), after the first up to twice
+/// as many (shadow_rays()), and draws one direction from
 /// the lobes for the ray to the next vertex. At most `render.bounces` scatterings follow the first. Roulette
 /// may end a path earlier; the lower the weight of the path, the more likely (survival()).
 ///
@@ -84,6 +85,8 @@ class PathWalk {
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
+  /// Count of shadow rays of a vertex after the first / that of the first, at most.
+  static constexpr float kMoreRays = 2;
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
   /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
@@ -103,6 +106,14 @@ class PathWalk {
       goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
                         sink);
     }
+  }
+  /// Returns the mean count of shadow rays at the current vertex. A vertex after the first has cost two rays
+  /// and more, so where its path brings as much light as the pixel shows, another shadow ray costs less than
+  /// the noise that it removes [Vorba16, "splitting"].
+  float shadow_rays(const PathState& path) const {
+    const auto rays = static_cast<float>(direct_.rays());
+    if (path.vertex == 0) return rays;
+    return rays * std::clamp(kMoreRays * max_component(path.weight) / kShown, 1.0f, kMoreRays);
   }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
@@ -164,12 +175,12 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
                                    SampleScratch& scratch, Sink& sink) const {
   seek(path, kLight);
   const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
-  const double total = direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
+  direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
   scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
-  if (!(total > 0)) return;
+  if (lights.points.empty()) return;
   seek(path, kLightChoice);
   bool is_traced = false;
-  direct_.choose(total, path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
+  direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
     is_traced = true;
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;

@@ -2,16 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <vector>
 
-#include "base/job.h"
 #include "base/ledger.h"
-#include "render/frame/tile_costs.h"
 #include "render/reflection/cell_keys.h"
-#include "render/reflection/reflection_paths.h"
 #include "render/reflection/reflection_slots.h"
-#include "render/reflection/reflection_table.h"
 
 namespace pelage {
 
@@ -22,14 +16,17 @@ namespace pelage {
 /// Thread safety: const members may be called from any thread.
 class ReflectionCache {
  public:
-  /// Keeps a reference to `scene`. `table`: without finish(). `reserved`: ends here; it must cover the table
-  /// and the cells arranged for reading.
-  ReflectionCache(const RenderScene& scene, ReflectionTable table, MemoryCharge reserved,
+  /// Fewer paths are too few for an estimate, even in a cell of the largest size.
+  static constexpr uint32_t kFewestPaths = 8;
+
+  /// Keeps a reference to `scene`. `reserved`: ends here; it must cover the cells.
+  ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                   MemoryLedger& ledger);
 
   /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few
   /// paths arrived.
   ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  size_t bytes() const { return slots_.bytes(); }
 
  private:
   CellKeys keys_;

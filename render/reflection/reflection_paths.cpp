@@ -23,11 +23,13 @@ void seek(SampleStream& stream, FirstVertexDraw draw) {
 /// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light.
 class ReflectionPaths::Recorder {
  public:
-  Recorder(const CellKeys& keys, std::vector<Rgb>& reflected) : keys_(keys), reflected_(reflected) {}
+  Recorder(const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
+      : keys_(keys), range_(range), reflected_(reflected) {}
 
   bool arrive(const PathState& path, const HitGeometry& met) {
     if (path.vertex > 1) return true;
     cells_ = keys_.of(path.ray, path.hit, met);
+    if (cells_ && !range_.contains(*cells_)) cells_.reset();
     return cells_.has_value();
   }
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
@@ -37,11 +39,12 @@ class ReflectionPaths::Recorder {
   void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
     if (weight * through > 0) reflected_[light] += path.throughput * radiance * (weight * through);
   }
-  /// Returns the cells of the second surface; empty where there is none, or no cell for it.
+  /// Returns the cells of the second surface; empty where there is none, or no cell of the range.
   const std::optional<CellPath>& cells() const { return cells_; }
 
  private:
   const CellKeys& keys_;
+  const CellRange& range_;
   std::vector<Rgb>& reflected_;
   std::optional<CellPath> cells_;
 };
@@ -67,13 +70,14 @@ bool ReflectionPaths::trace(const Tile& tile, const Share& share, const Job& job
     for (int x = tile.x0; x < tile.x1; ++x) {
       if (job.progress.cancelled()) return false;
       const uint32_t count = choice.times(static_cast<float>(share.paths));
-      for (uint32_t i = 0; i < count; ++i) follow(x, y, samples * share.round + i, scratch, table);
+      for (uint32_t i = 0; i < count; ++i) follow(x, y, samples * share.round + i, share.cells, scratch, table);
     }
   }
   return true;
 }
 
-void ReflectionPaths::follow(int x, int y, uint32_t sample, Scratch& scratch, ReflectionTable& table) const {
+void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cells, Scratch& scratch,
+                             ReflectionTable& table) const {
   SampleStream stream(hash64(random_use("reflections"), static_cast<uint64_t>(scene_.render.seed)),
                       static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const CameraSample from = camera_.draw(x, y, sample, stream);
@@ -101,11 +105,10 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, Scratch& scratch, Re
   ray.time = path.time;
   if (!point.can_hit_own_strand()) ray.start = hit.start;
   scratch.reflected.assign(scene_.lights.size(), Rgb(0));
-  Recorder recorder(keys_, scratch.reflected);
+  Recorder recorder(keys_, cells, scratch.reflected);
   const float weight = luminance(path.weight);
   walk_.follow(ray, path, scratch.direct, scratch, recorder);
   if (!recorder.cells()) return;
-  ++scratch.added;
   table.add(*recorder.cells(), weight, scratch.reflected);
 }
 

@@ -8,6 +8,7 @@
 #include "render/frame/tile_order.h"
 #include "render/path/path_walk.h"
 #include "render/reflection/cell_keys.h"
+#include "render/reflection/cell_range.h"
 #include "render/reflection/reflection_table.h"
 
 namespace pelage {
@@ -24,7 +25,6 @@ class ReflectionPaths {
 
   struct Scratch final : SampleScratch {
     DirectLightScratch direct;
-    int64_t added = 0;           // paths that were added to cells
     std::vector<Rgb> reflected;  // by the second surface of a path, by light
   };
 
@@ -32,16 +32,18 @@ class ReflectionPaths {
   struct Share {
     uint32_t round = 0;  ///< number of the part
     double paths = 0;    ///< mean count per pixel
+    CellRange cells;     ///< only paths to these cells are traced to their ends
   };
 
-  /// Traces a share of the paths of the pixels of a tile, and adds them to `table`. Returns false when `job`
-  /// was cancelled.
+  /// Traces a share of the paths of the pixels of a tile, and adds those to the cells of the share to
+  /// `table`. Returns false when `job` was cancelled.
   bool trace(const Tile& tile, const Share& share, const Job& job, Scratch& scratch,
              ReflectionTable& table) const;
 
  private:
   class Recorder;
-  void follow(int x, int y, uint32_t sample, Scratch& scratch, ReflectionTable& table) const;
+  void follow(int x, int y, uint32_t sample, const CellRange& cells, Scratch& scratch,
+              ReflectionTable& table) const;
 
   const RenderScene& scene_;
   const Accel& accel_;

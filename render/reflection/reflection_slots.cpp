@@ -1,54 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/reflection/reflection_slots.h"
 
-#include <bit>
+#include <tuple>
+
+#include "render/reflection/cell_keys.h"
 
 namespace pelage {
 namespace {
 
-constexpr uint64_t kEmptyKey = 0;  // the key of an empty slot; a cell with this key would be left out
-
-template <class Slot>
-uint64_t key_of(const Slot& slot) {
-  return std::bit_cast<uint64_t>(std::array<float, 2>{slot.values[0], slot.values[1]});
-}
+// Stored keys that belong to no cell: a search ends at an empty slot, and goes on at one whose cell was
+// dropped. The level bits of a cell are not 0.
+constexpr uint64_t kEmpty = 0, kDropped = 4;
 
 }  // namespace
 
-ReflectionSlots::ReflectionSlots(const ReflectionTable& table, size_t lights, uint32_t fewest)
-    : half_lines_(half_lines(lights)) {
-  const auto kept = [&](size_t i) {
-    return table.cell(i).paths_of_largest >= fewest && table.cell(i).key != kEmptyKey;
-  };
-  for (size_t i = 0; i < table.size(); ++i) size_ += kept(i) ? 1 : 0;
-  count_ = slots_for(size_, lights);
-  slots_.resize(count_ * half_lines_);
+static_assert(std::tuple_size_v<CellPath> <= 3, "a slot has two bits for the level, and 0 is no level");
+
+ReflectionSlots::ReflectionSlots(size_t lights, size_t room, Density density)
+    : words_(words(lights)), count_(slots_for(room, density)), slots_(count_ * words_) {}
+
+void ReflectionSlots::add(const ReflectionTable& table, uint32_t fewest) {
   for (size_t i = 0; i < table.size(); ++i) {
-    if (!kept(i)) continue;
-    HalfLine* slot = &insert(table.cell(i).key);
-    for (size_t v = 0; v < 3 * lights; ++v) {
-      const size_t at = kKeyFloats + v;
-      slot[at / kFloats].values[at % kFloats] = table.radiance(i)[v / 3][static_cast<int>(v % 3)];
-    }
+    const ReflectionTable::Cell& cell = table.cell(i);
+    if (cell.paths_of_largest < fewest) continue;
+    size_t at = home(cell.key);
+    while (key_at(at) != kEmpty && key_at(at) != kDropped) at = after(at);
+    key_at(at) = stored(cell.key, cell.level);
+    for (size_t light = 0; light + 1 < words_; ++light)
+      slots_[at * words_ + 1 + light] = PackedRadiance::pack(table.radiance(i)[light]);
+    ++size_;
   }
 }
 
-ReflectionSlots::HalfLine& ReflectionSlots::insert(uint64_t key) {
-  size_t at = home(key);
-  while (key_of(slots_[at * half_lines_]) != kEmptyKey) at = at + 1 < count_ ? at + 1 : 0;
-  HalfLine& slot = slots_[at * half_lines_];
-  const auto halves = std::bit_cast<std::array<float, 2>>(key);
-  slot.values[0] = halves[0];
-  slot.values[1] = halves[1];
-  return slot;
+void ReflectionSlots::drop(uint32_t level) {
+  for (size_t slot = 0; slot < count_; ++slot) {
+    if ((key_at(slot) & kLevelBits) != level + 1) continue;
+    key_at(slot) = kDropped;
+    --size_;
+  }
 }
 
-ReflectionSlots::Radiance ReflectionSlots::find(uint64_t key) const {
-  for (size_t at = home(key);; at = at + 1 < count_ ? at + 1 : 0) {
-    const HalfLine& slot = slots_[at * half_lines_];
-    const uint64_t found = key_of(slot);
-    if (found == kEmptyKey) return {};
-    if (found == key) return Radiance(&slot);
+ReflectionSlots::Radiance ReflectionSlots::find(uint64_t key, uint32_t level) const {
+  const uint64_t wanted = stored(key, level);
+  for (size_t at = home(key);; at = after(at)) {
+    const uint64_t found = key_at(at);
+    if (found == wanted) return Radiance(&slots_[at * words_ + 1]);
+    if (found == kEmpty) return {};
   }
 }
 

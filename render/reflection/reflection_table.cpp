@@ -10,7 +10,8 @@ constexpr size_t kFewSlots = 16;
 
 }  // namespace
 
-ReflectionTable::ReflectionTable(size_t lights, size_t room) : lights_(lights) {
+ReflectionTable::ReflectionTable(size_t lights, size_t room, uint32_t smallest)
+    : lights_(lights), smallest_(smallest) {
   cells_.reserve(room);
   radiance_.reserve(room * lights);
 }

@@ -24,8 +24,8 @@ class ReflectionTable {
     uint32_t paths_of_largest = 0;  ///< after finish(): `paths` of the largest cell around this one
   };
 
-  /// `room`: the count of cells for which memory is reserved at once.
-  explicit ReflectionTable(size_t lights = 0, size_t room = 0);
+  /// `room`: the count of cells for which memory is reserved at once. `smallest`: no cells below this level.
+  explicit ReflectionTable(size_t lights = 0, size_t room = 0, uint32_t smallest = 0);
 
   /// Adds the radiance of one path, by light, to cells: the smallest cell first, and each inside the next.
   void add(std::span<const uint64_t> cells, float weight, std::span<const Rgb> radiance);
@@ -39,6 +39,8 @@ class ReflectionTable {
   void finish(float blend);
 
   size_t size() const { return cells_.size(); }
+  /// Returns the level of the smallest cells that are kept: how often drop_smallest() was called.
+  uint32_t smallest_level() const { return smallest_; }
   /// Returns the index of the cell with this key; size() if there is none.
   size_t find(uint64_t key) const;
   const Cell& cell(size_t index) const { return cells_[index]; }

@@ -58,6 +58,24 @@ inline void append(SkinMesh& mesh, const SkinMesh& other, const V3f& by) {
   mesh.vertex_uv.insert(mesh.vertex_uv.end(), other.vertex_uv.begin(), other.vertex_uv.end());
 }
 
+/// The mesh with separate vertices for each triangle, as if all edges were seams of texture coordinates.
+inline SkinMesh split_at_edges(const SkinMesh& mesh) {
+  SkinMesh split = mesh;
+  const auto copy = [&](const std::vector<float>& values, std::vector<float>& copies) {
+    copies.clear();
+    for (size_t key = 0; key < static_cast<size_t>(mesh.motion_keys); ++key) {
+      for (const uint32_t v : mesh.triangles) {
+        const float* p = &values[(key * mesh.vertex_count() + v) * 3];
+        copies.insert(copies.end(), p, p + 3);
+      }
+    }
+  };
+  copy(mesh.positions, split.positions);
+  copy(mesh.normals, split.normals);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) split.triangles[i] = static_cast<uint32_t>(i);
+  return split;
+}
+
 /// The mesh with three motion keys: it turns, bends and moves away.
 inline SkinMesh moving(SkinMesh mesh) {
   const size_t count = mesh.vertex_count();

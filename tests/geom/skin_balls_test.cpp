@@ -80,6 +80,24 @@ TEST(WindingNumbers, AnEdgeUsedOnceOpensAMesh) {
   EXPECT_FALSE(is_closed(mesh));
 }
 
+TEST(WindingNumbers, SeamsWhereVerticesCoincideInEveryPoseDoNotOpenAMesh) {
+  SkinMesh mesh = split_at_edges(moving(eared_skin()));
+  EXPECT_TRUE(is_closed(mesh));
+  mesh.positions.back() += 1e-5f;  // the seam opens in the last pose
+  EXPECT_FALSE(is_closed(mesh));
+}
+
+TEST(SkinBalls, DoNotDependOnSeams) {
+  QuietJob job{1};
+  const SkinMesh mesh = moving(eared_skin());
+  const SkinBalls whole(mesh, job), split(split_at_edges(mesh), job);
+  ASSERT_EQ(whole.size(), split.size());
+  for (uint32_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(whole.ball(i, 0.3f).center, split.ball(i, 0.3f).center);
+    EXPECT_EQ(whole.ball(i, 0).radius, split.ball(i, 0).radius);
+  }
+}
+
 TEST(SkinBalls, HoldNoSurfaceOverTheWholeShutter) {
   QuietJob job{1};
   for (const SkinMesh& mesh : {flat_skin(bumpy_sphere(16)), eared_skin(), moving(eared_skin())}) {

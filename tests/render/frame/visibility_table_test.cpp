@@ -81,10 +81,9 @@ class SpikyLight {
     SampleStream stream(random_use("shading"), run, 0, 0);
     DirectLightScratch scratch;
     direct_.begin(point, scratch);
-    const double total = direct_.propose(point, stream.next2d(), no_lobes, scratch);
+    direct_.propose(point, stream.next2d(), no_lobes, scratch);
     double light = 0;
-    if (!(total > 0)) return 0;
-    direct_.choose(total, stream.next1d(), scratch, [&](const LightPoint& to, float factor) {
+    direct_.choose(1, stream.next1d(), scratch, [&](const LightPoint& to, float factor) {
       arrived += through(to);
       light += double{to.luminance} * factor * through(to);
     });

@@ -97,6 +97,28 @@ TEST(PathEstimators, MoreLightSamplesChangeTheNoiseOnly) {
   EXPECT_GT(scene.statistics.rays.shadow, 3 * shadow_rays);
 }
 
+/// Two rooms with a lamp, one pale and one dark: the same surfaces are hit.
+TEST(PathEstimators, BrightPathsGetMoreShadowRays) {
+  const auto rays_per_vertex = [](float color) {
+    PathScene scene(16, 16);
+    LambertParams walls;
+    walls.color = Field(Rgb(color));
+    scene.add_skin(sphere_mesh(100), walls);  // around the camera
+    SphereLightParams lamp;
+    lamp.radius = 0.5f;
+    lamp.radiance = Rgb(5);
+    scene.add_light("lamp", lamp);
+    scene.render.bounces = 1;
+    PathOptions options;
+    options.roulette = false;
+    scene.run(options);
+    const auto& rays = scene.statistics.rays;
+    return static_cast<double>(rays.shadow) / static_cast<double>(rays.camera + rays.indirect);
+  };
+  const double dark = rays_per_vertex(0.2f), pale = rays_per_vertex(0.9f);
+  EXPECT_GT(pale, 1.2 * dark);
+}
+
 TEST(PathEstimators, RouletteChangesNoMean) {
   FurryScene scene;
   scene.render.bounces = 8;

@@ -90,23 +90,51 @@ TEST(ReflectionCache, SavesRaysInPaleFur) {
   EXPECT_LT(scene.statistics.rays.shadow, 0.8 * static_cast<double>(whole.shadow));
 }
 
-TEST(ReflectionCache, AnyMemoryThatSufficesGivesTheSameFilm) {
-  CachedScene scene;
-  const FrameResult free = scene.run();
-  const int64_t peak = scene.ledger.peak(MemoryTag::kReflectionCache);
-  EXPECT_GT(peak, 0);
-  EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
-  scene.render.gather.memory.bytes = static_cast<uint64_t>(peak);
-  expect_same(free.film, scene.run().film);
-  scene.render.gather.memory.bytes = 16 << 10;
+/// Returns the number of a refusal that begins a part of its text: "; 3M suffices".
+uint64_t sufficient_bytes(const Error& error) {
+  const std::string text = error.what();
+  return std::stoull(text.substr(text.find("; ") + 2)) << 20;
+}
+
+/// A picture that is large enough for several slices.
+struct LargeCachedScene : CachedScene {
+  LargeCachedScene() {
+    image.width = 80;
+    image.height = 60;
+    render.samples = 2;
+    render.gather.cache_paths = 2;
+  }
+};
+
+/// Returns the least memory that suffices, as a refusal names it.
+uint64_t least_memory() {
+  LargeCachedScene scene;
+  scene.render.gather.memory.bytes = 64 << 10;
   try {
     scene.run();
-    FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
     EXPECT_NE(std::string(error.what()).find("render.gather.memory"), std::string::npos) << error.what();
+    EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
+    return sufficient_bytes(error);
   }
-  EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
+  ADD_FAILURE() << "not refused";
+  return 0;
+}
+
+TEST(ReflectionCache, SlicesChangeNoPixel) {
+  LargeCachedScene scene;
+  const FrameResult whole = scene.run();
+  const ReflectionStatistics first = scene.statistics.reflections;
+  EXPECT_EQ(first.slices, 1);
+  scene.render.gather.memory.bytes = least_memory();
+  scene.statistics = {};
+  expect_same(whole.film, scene.run({}, 4).film);
+  const ReflectionStatistics& sliced = scene.statistics.reflections;
+  EXPECT_GE(sliced.slices, 8);
+  EXPECT_EQ(sliced.cells, first.cells);
+  EXPECT_EQ(sliced.paths, first.paths);
+  EXPECT_EQ(sliced.found, first.found);
 }
 
 TEST(ReflectionCache, WithoutReuseItIsNotUsed) {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/reflection/cache_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/memory_budget.h"
+#include "render/reflection/cell_keys.h"
+#include "render/reflection/reflection_slots.h"
+#include "render/reflection/reflection_table.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kMostTiles = 32;  // whose paths are added up at once
+constexpr double kAtOnce = 4;      // paths per pixel and round
+/// Max count of cells: per pixel, but at least kFewestCells and at most kMostCells. Beyond, the smallest
+/// cells are dropped. So the limit depends on the picture alone. In large pictures, cells of twice the size
+/// are still small on the animal.
+constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells = size_t{1} << 20;
+/// Min room of a slice: more than the cells in one largest cell, of which a slice cannot have less.
+constexpr size_t kMinRoom = 2048;
+/// More samples add no more paths: cells have enough, and the picture must begin some time.
+constexpr int kMostSamples = 1024;
+
+double paths_per_pixel(const RenderParams& render) {
+  return double{render.gather.cache_paths} * std::min(render.samples, kMostSamples);
+}
+
+size_t tile_count(const RenderScene& scene) {
+  const auto across = [](int side) {
+    return static_cast<size_t>((side + CacheRounds::kSide - 1) / CacheRounds::kSide);
+  };
+  return across(scene.image.width) * across(scene.image.height);
+}
+
+/// Max count of cells that the paths of `tiles` tiles add in one round.
+size_t cells_of_tiles(const RenderScene& scene, size_t tiles) {
+  constexpr double kPixels = CacheRounds::kSide * CacheRounds::kSide;
+  const double paths = CacheRounds(scene.render).paths * kPixels + 1;
+  return tiles * static_cast<size_t>(std::ceil(paths)) * std::tuple_size_v<CellPath>;
+}
+
+size_t max_cells(const RenderScene& scene) {
+  const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
+  // Each tile of each round may round its count of paths up.
+  const double paths = std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels)) +
+                       static_cast<double>(tile_count(scene) * CacheRounds(scene.render).count);
+  const size_t limit = std::clamp(kCellsPerPixel * pixels, kFewestCells, kMostCells);
+  return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
+}
+
+}  // namespace
+
+CacheRounds::CacheRounds(const RenderParams& render)
+    : count(static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)))),
+      paths(paths_per_pixel(render) / count) {}
+
+CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
+  const size_t lights = scene.lights.size();
+  CachePlan plan;
+  plan.max_cells = pelage::max_cells(scene);
+  plan.slices = slices;
+  plan.room = slices == 1 ? plan.max_cells
+                          : std::min(plan.max_cells, std::max(plan.max_cells / slices, kMinRoom));
+  plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
+  const size_t added = cells_of_tiles(scene, plan.batch);
+  constexpr size_t kDoubling = 3;  // vectors of the tables of tiles grow: the old array beside the new one
+  const size_t tables = kDoubling * ReflectionTable::max_bytes(added, lights);
+  const size_t slots = ReflectionSlots::bytes(plan.max_cells, lights, plan.density());
+  const size_t table = ReflectionTable::max_bytes(plan.room + added, lights);
+  // The slots of a single slice are made after its paths were added up; those of several slices before.
+  plan.bytes = static_cast<int64_t>(table + (slices == 1 ? std::max(tables, slots) : tables + slots));
+  return plan;
+}
+
+CachePlan CachePlan::fitting(const RenderScene& scene, const MemoryLedger& ledger) {
+  const auto limit = static_cast<int64_t>(scene.render.gather.memory.bytes);
+  CachePlan plan;
+  for (uint32_t slices = 1; slices <= kMostSlices; slices *= 2) {
+    plan = with_slices(scene, slices);
+    if ((limit == 0 || plan.bytes <= limit) && has_room(ledger, 2 * plan.bytes)) return plan;
+  }
+  if (limit > 0 && plan.bytes > limit) {
+    throw Error(ErrorKind::kMemory,
+                fmt::format("the reflection cache needs {} or more, but render.gather.memory is {}; {}M "
+                            "suffices, and so does render.gather.cache: false",
+                            memory_text(plan.bytes), memory_text(limit), (plan.bytes >> 20) + 1));
+  }
+  return plan;
+}
+
+}  // namespace pelage

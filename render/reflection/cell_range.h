@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/reflection/cell_range_test.cpp.
+#pragma once
+
+#include <cstdint>
+
+#include "render/reflection/cell_keys.h"
+
+namespace pelage {
+
+/// A slice of the cells of the reflection cache: those whose largest cell has a key in a range. A cell and the
+/// larger cells around it are always in the same slice. Keys are hashes, so a part of all keys has about the
+/// same part of the cells. Keys are counted in units of 2^32.
+class CellRange {
+ public:
+  static constexpr uint64_t kAll = uint64_t{1} << 32;
+
+  /// The first range of `length`, which is at least 1.
+  explicit CellRange(uint64_t length = kAll) : length_(length) {}
+
+  bool contains(const CellPath& cells) const {
+    const uint64_t at = cells.back() >> 32;
+    return at >= first_ && at - first_ < length_;
+  }
+  bool is_all() const { return first_ == 0 && length_ >= kAll; }
+  /// Returns whether all keys are before this range.
+  bool is_over() const { return first_ >= kAll; }
+  /// Returns the part of all keys that is before the end of this range, at most 1.
+  double share_done() const {
+    const uint64_t end = first_ + length_;
+    return end < kAll ? static_cast<double>(end) / static_cast<double>(kAll) : 1.0;
+  }
+  bool can_halve() const { return length_ > 1; }
+  void halve() { length_ = (length_ + 1) / 2; }
+  /// Moves on to the keys after this range, as many as it has.
+  void advance() { first_ += length_; }
+
+ private:
+  uint64_t first_ = 0, length_;
+};
+
+}  // namespace pelage
