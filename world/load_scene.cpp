@@ -180,6 +180,10 @@ void check_gather(const SceneDescription& scene, const Value& document, Problems
     problems.add(document.find("render")->find("gather")->position(),
                  "`min_width` needs `visibility: raster`");
   }
+  if (scene.render.gather.cache == true && !scene.render.gather.reuse) {
+    problems.add(document.find("render")->find("gather")->find("cache")->position(),
+                 "`cache: true` needs `reuse: true`");
+  }
 }
 
 void warn_of_visibility(const SceneDescription& scene, const Value& document,

@@ -42,7 +42,8 @@ void CacheFill::run(const Job& job, const Stopwatch& clock, std::optional<Reflec
   if (plan.slices > 1) slots_.emplace(scene_.lights.size(), plan.max_cells, plan.density());
   CellRange range(CellRange::kAll / plan.slices);
   while (!range.is_over()) {
-    ReflectionTable sum(scene_.lights.size(), plan.room, smallest_);
+    const size_t batch = plan.batch * CacheRounds(scene_.render).cells_of_tile();
+    ReflectionTable sum(scene_.lights.size(), plan.room + batch, smallest_);
     switch (fill_slice(range, job, clock, sum)) {
       case SliceEnd::kCancelled: return;
       case SliceEnd::kTooLarge: range.halve(); break;
@@ -64,7 +65,6 @@ CacheFill::SliceEnd CacheFill::fill_slice(const CellRange& range, const Job& job
   const double end_s =
       limit_s > 0 ? kTimeShare * limit_s * range.share_done() : std::numeric_limits<double>::infinity();
   job.progress.begin("reflection cache", static_cast<double>(tiles_.size()) * rounds.count);
-  SliceEnd result = SliceEnd::kDone;
   PassEnd end = PassEnd::kDone;
   for (uint32_t round = 0; round < rounds.count && end == PassEnd::kDone; ++round) {
     for (size_t first = 0; first < tiles_.size() && end == PassEnd::kDone; first += memory_.plan.batch) {
@@ -81,8 +81,7 @@ CacheFill::SliceEnd CacheFill::fill_slice(const CellRange& range, const Job& job
     }
   }
   job.progress.end();
-  if (job.progress.cancelled()) result = SliceEnd::kCancelled;
-  return result;
+  return job.progress.cancelled() ? SliceEnd::kCancelled : SliceEnd::kDone;
 }
 
 /// Traces the paths of a round of some tiles, and adds them to `sum` in the order of the tiles.
@@ -92,9 +91,10 @@ PassEnd CacheFill::trace_batch(const std::vector<Tile>& batch, const ReflectionP
   const auto place = [&](const Tile& tile) {
     return tile.y0 / CacheRounds::kSide * columns + tile.x0 / CacheRounds::kSide;
   };
+  const size_t room = CacheRounds(scene_.render).cells_of_tile();
   std::map<int, ReflectionTable> tables;
   for (const Tile& tile : batch)
-    tables.emplace(place(tile), ReflectionTable(scene_.lights.size(), 0, smallest_));
+    tables.emplace(place(tile), ReflectionTable(scene_.lights.size(), room, smallest_));
   const PassEnd end = trace_tiles(batch, job, clock, end_s, [&](const Tile& tile, int worker) {
     ReflectionPaths::Scratch& scratch = scratch_[static_cast<size_t>(worker)];
     const TileTimer timer(scratch.costs);

@@ -22,8 +22,9 @@ constexpr double kAtOnce = 4;      // paths per pixel and round
 /// cells are dropped. So the limit depends on the picture alone. In large pictures, cells of twice the size
 /// are still small on the animal.
 constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells = size_t{1} << 20;
-/// Min room of a slice: more than the cells in one largest cell, of which a slice cannot have less.
-constexpr size_t kMinRoom = 2048;
+/// Min room of a slice: more than the cells in one largest cell, of which a slice cannot have less. These are
+/// 8 x 8 x 8 cubes with up to 7 parts of strands each, and those of twice the size.
+constexpr size_t kMinRoom = 4096;
 /// More samples add no more paths: cells have enough, and the picture must begin some time.
 constexpr int kMostSamples = 1024;
 
@@ -38,12 +39,6 @@ size_t tile_count(const RenderScene& scene) {
   return across(scene.image.width) * across(scene.image.height);
 }
 
-/// Max count of cells that the paths of `tiles` tiles add in one round.
-size_t cells_of_tiles(const RenderScene& scene, size_t tiles) {
-  constexpr double kPixels = CacheRounds::kSide * CacheRounds::kSide;
-  const double paths = CacheRounds(scene.render).paths * kPixels + 1;
-  return tiles * static_cast<size_t>(std::ceil(paths)) * std::tuple_size_v<CellPath>;
-}
 
 size_t max_cells(const RenderScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
@@ -60,6 +55,10 @@ CacheRounds::CacheRounds(const RenderParams& render)
     : count(static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)))),
       paths(paths_per_pixel(render) / count) {}
 
+size_t CacheRounds::cells_of_tile() const {
+  return static_cast<size_t>(std::ceil(paths * kSide * kSide + 1)) * std::tuple_size_v<CellPath>;
+}
+
 CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   const size_t lights = scene.lights.size();
   CachePlan plan;
@@ -68,9 +67,8 @@ CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   plan.room = slices == 1 ? plan.max_cells
                           : std::min(plan.max_cells, std::max(plan.max_cells / slices, kMinRoom));
   plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
-  const size_t added = cells_of_tiles(scene, plan.batch);
-  constexpr size_t kDoubling = 3;  // vectors of the tables of tiles grow: the old array beside the new one
-  const size_t tables = kDoubling * ReflectionTable::max_bytes(added, lights);
+  const size_t added = plan.batch * CacheRounds(scene.render).cells_of_tile();
+  const size_t tables = ReflectionTable::max_bytes(added, lights);
   const size_t slots = ReflectionSlots::bytes(plan.max_cells, lights, plan.density());
   const size_t table = ReflectionTable::max_bytes(plan.room + added, lights);
   // The slots of a single slice are made after its paths were added up; those of several slices before.

@@ -42,6 +42,8 @@ struct CacheRounds {
   double paths = 0;  ///< per pixel and round, on average
 
   explicit CacheRounds(const RenderParams& render);
+  /// Returns the max count of cells that the paths of a tile add in one round.
+  size_t cells_of_tile() const;
 };
 
 }  // namespace pelage

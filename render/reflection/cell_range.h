@@ -15,8 +15,8 @@ class CellRange {
  public:
   static constexpr uint64_t kAll = uint64_t{1} << 32;
 
-  /// The first range of `length`, which is at least 1.
-  explicit CellRange(uint64_t length = kAll) : length_(length) {}
+  /// The first range. `length`: that of all ranges, unless they are halved; not 0.
+  explicit CellRange(uint64_t length = kAll) : length_(length), most_(length) {}
 
   bool contains(const CellPath& cells) const {
     const uint64_t at = cells.back() >> 32;
@@ -30,13 +30,17 @@ class CellRange {
     const uint64_t end = first_ + length_;
     return end < kAll ? static_cast<double>(end) / static_cast<double>(kAll) : 1.0;
   }
-  bool can_halve() const { return length_ > 1; }
+  /// Returns whether halve() can be called: not where a range is so short that few largest cells are left.
+  bool can_halve() const { return length_ > kAll >> 12; }
   void halve() { length_ = (length_ + 1) / 2; }
-  /// Moves on to the keys after this range, as many as it has.
-  void advance() { first_ += length_; }
+  /// Moves on to the keys after this range. The range after a halved one is twice as long again.
+  void advance() {
+    first_ += length_;
+    length_ = length_ < most_ / 2 ? 2 * length_ : most_;
+  }
 
  private:
-  uint64_t first_ = 0, length_;
+  uint64_t first_ = 0, length_, most_;
 };
 
 }  // namespace pelage

@@ -167,6 +167,9 @@ TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
   }
   EXPECT_EQ(problems(kScene, {gather, {"render.gather", "{min_width: 1, visibility: rays}"}}),
             Lines{"--set render.gather: `min_width` needs `visibility: raster`"});
+  EXPECT_EQ(problems(kScene, {gather, {"render.gather", "{cache: true, reuse: false}"}}),
+            Lines{"--set render.gather: `cache: true` needs `reuse: true`"});
+  EXPECT_FALSE(load(kScene, {gather, {"render.gather", "{cache: false, reuse: false}"}}).render.gather.reuse);
   EXPECT_TRUE(load(kScene, {gather, raster}).warnings.empty());
   const std::vector<Problem> warnings = load(kScene, {raster}).warnings;
   ASSERT_EQ(warnings.size(), 1u);
