@@ -121,6 +121,10 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
       gather_with("cache", "false", "no_cache"),
       gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
+  for (ShadingCurve& curve : curves) {  // a cache needs reuse, whatever the scene says
+    if (curve.id == "reuse") curve.settings.emplace_back("render.gather.cache", "false");
+    if (curve.id == "cache") curve.settings.emplace_back("render.gather.reuse", "true");
+  }
   curves.back().settings.back().second = "drawn";
   for (const ShadingCurve& curve : {curves[0], gather("", "gather")}) {
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));

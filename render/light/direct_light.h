@@ -78,9 +78,9 @@ class DirectLight {
   }
 
   /// Draws the candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
-  /// would contribute nothing, so leaving them out changes no expected value. `u`: two random numbers in [0, 1).
-  /// `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose scattering is
-  /// `value`.
+  /// would contribute nothing, so leaving them out changes no expected value. `u`: two random numbers in [0,
+  /// 1). `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose
+  /// scattering is `value`.
   template <class LobePdf>
   void propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                DirectLightScratch& scratch) const;
@@ -172,8 +172,7 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 }
 
 template <class Shadow>
-void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch,
-                         const Shadow& shadow) const {
+void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch, const Shadow& shadow) const {
   // Points are drawn in proportion to the unoccluded light that they contribute, times the learned factor.
   // The step makes up for the factors: fewer rays would add more noise than they save time.
   double likely = 0;

@@ -45,8 +45,11 @@ void CacheFill::run(const Job& job, const Stopwatch& clock, std::optional<Reflec
     const size_t batch = plan.batch * CacheRounds(scene_.render).cells_of_tile();
     ReflectionTable sum(scene_.lights.size(), plan.room + batch, smallest_);
     switch (fill_slice(range, job, clock, sum)) {
-      case SliceEnd::kCancelled: return;
-      case SliceEnd::kTooLarge: range.halve(); break;
+      case SliceEnd::kCancelled:
+        return;
+      case SliceEnd::kTooLarge:
+        range.halve();
+        break;
       case SliceEnd::kDone:
         finish_slice(range, std::move(sum));
         range.advance();
@@ -110,7 +113,8 @@ PassEnd CacheFill::trace_batch(const std::vector<Tile>& batch, const ReflectionP
 /// grow, so the level that is left in the end does not depend on the order of slices.
 void CacheFill::drop_cells(ReflectionTable& sum) {
   const auto finished = [&] {
-    return std::accumulate(cells_.begin() + std::min<size_t>(smallest_, cells_.size()), cells_.end(), size_t{0});
+    return std::accumulate(cells_.begin() + std::min<size_t>(smallest_, cells_.size()), cells_.end(),
+                           size_t{0});
   };
   while (finished() + sum.size() > memory_.plan.max_cells) {
     if (slots_) slots_->drop(smallest_);

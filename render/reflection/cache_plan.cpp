@@ -39,7 +39,6 @@ size_t tile_count(const RenderScene& scene) {
   return across(scene.image.width) * across(scene.image.height);
 }
 
-
 size_t max_cells(const RenderScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
   // Each tile of each round may round its count of paths up.
@@ -64,8 +63,8 @@ CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   CachePlan plan;
   plan.max_cells = pelage::max_cells(scene);
   plan.slices = slices;
-  plan.room = slices == 1 ? plan.max_cells
-                          : std::min(plan.max_cells, std::max(plan.max_cells / slices, kMinRoom));
+  plan.room =
+      slices == 1 ? plan.max_cells : std::min(plan.max_cells, std::max(plan.max_cells / slices, kMinRoom));
   plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
   const size_t added = plan.batch * CacheRounds(scene.render).cells_of_tile();
   const size_t tables = ReflectionTable::max_bytes(added, lights);

@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// A slice of the cells of the reflection cache: those whose largest cell has a key in a range. A cell and the
-/// larger cells around it are always in the same slice. Keys are hashes, so a part of all keys has about the
-/// same part of the cells. Keys are counted in units of 2^32.
+/// A slice of the cells of the reflection cache: those whose largest cell has a key in a range. A cell and
+/// the larger cells around it are always in the same slice. Keys are hashes, so a part of all keys has about
+/// the same part of the cells. Keys are counted in units of 2^32.
 class CellRange {
  public:
   static constexpr uint64_t kAll = uint64_t{1} << 32;

@@ -70,7 +70,8 @@ bool ReflectionPaths::trace(const Tile& tile, const Share& share, const Job& job
     for (int x = tile.x0; x < tile.x1; ++x) {
       if (job.progress.cancelled()) return false;
       const uint32_t count = choice.times(static_cast<float>(share.paths));
-      for (uint32_t i = 0; i < count; ++i) follow(x, y, samples * share.round + i, share.cells, scratch, table);
+      for (uint32_t i = 0; i < count; ++i)
+        follow(x, y, samples * share.round + i, share.cells, scratch, table);
     }
   }
   return true;

@@ -13,8 +13,8 @@ namespace pelage {
 
 /// The finished cells of a reflection cache, arranged for reading: a hash table with open addressing and
 /// linear probing. A slot has the key of a cell and its radiance by light, 8 bytes each, so with one light, a
-/// cache line holds four slots, and a lookup mostly waits for memory once. Filled by one thread, slice by slice. After that it does not change: any thread may read at
-/// any time, without a lock.
+/// cache line holds four slots, and a lookup mostly waits for memory once. Filled by one thread, slice by
+/// slice. After that it does not change: any thread may read at any time, without a lock.
 class ReflectionSlots {
  public:
   /// The mean radiance of a cell, by light. Converts to false where there is no cell.

@@ -65,10 +65,12 @@ const Schema<GatherParams>& GatherParams::schema() {
           {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});
     s.key(
         "memory", &GatherParams::memory,
-        {.help = "Maximum memory of the cache. Pelage reserves about 450 bytes per pixel with one light, and "
-                 "850 with three, but at most about 120 MB and 230 MB. If that does not fit, it refuses to "
-                 "render",
-         .default_text = "what `render.memory` leaves"});
+        {.help =
+             "Maximum memory of the cache. Pelage reserves about 360 bytes per pixel with one light and 560 "
+             "with three (more in small pictures), but at most about 94 MB and 147 MB. With less memory, the "
+             "cache is filled in several slices, which takes longer but changes no pixel. About a third "
+             "of these figures suffices; Pelage refuses smaller limits",
+         .default_text = "half of what `render.memory` leaves, or more if that does not suffice"});
     return s;
   }();
   return table;

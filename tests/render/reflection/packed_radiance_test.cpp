@@ -30,7 +30,9 @@ TEST(PackedRadiance, KeepsEachChannelInAnyUnit) {
 }
 
 TEST(PackedRadiance, StaysFiniteAndNotNegative) {
-  const auto kept = [](float value) { return PackedRadiance::unpack(PackedRadiance::pack(Rgb(1, value, 2))); };
+  const auto kept = [](float value) {
+    return PackedRadiance::unpack(PackedRadiance::pack(Rgb(1, value, 2)));
+  };
   EXPECT_EQ(kept(0), Rgb(1, 0, 2));
   EXPECT_EQ(kept(-3), Rgb(1, 0, 2));
   EXPECT_EQ(kept(std::nanf("")), Rgb(1, 0, 2));

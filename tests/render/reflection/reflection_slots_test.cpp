@@ -46,7 +46,8 @@ TEST(ReflectionSlots, HaveTheCellsOfTheTable) {
       const auto found = slots.find(mix64(cell + 1), 0);
       ASSERT_TRUE(found) << cell;
       const Rgb* expected = table.radiance(table.find(mix64(cell + 1)));
-      for (size_t light = 0; light < lights; ++light) EXPECT_EQ(found[light], PackedRadiance::unpack(PackedRadiance::pack(expected[light]))) << cell;
+      for (size_t light = 0; light < lights; ++light)
+        EXPECT_EQ(found[light], PackedRadiance::unpack(PackedRadiance::pack(expected[light]))) << cell;
     }
     for (uint64_t cell = kCells; cell < 2 * kCells; ++cell) EXPECT_FALSE(slots.find(mix64(cell + 1), 0));
   }
