@@ -58,7 +58,7 @@ TEST(IndirectClamp, SaysWhatItTakes) {
   ClampScene scene;
   const double direct = luminance_of(scene.with(0, 0));
   const double all = luminance_of(scene.with(0));
-  const FrameResult clamped = scene.with(0.5f);
+  const FrameResult clamped = scene.with(0.4f);
   const double lost = (all - luminance_of(clamped)) / (all - direct);
   EXPECT_GT(lost, 0.02);
   // The same paths with and without the limit; only the luminance of direct light is of another render.
