@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
 namespace pelage {
@@ -45,7 +46,8 @@ std::vector<uint32_t> welded_vertices(const SkinMesh& mesh) {
     for (int key = 0; key < mesh.motion_keys; ++key) {
       const V3f p = mesh.position(a, key), q = mesh.position(b, key);
       for (int axis = 0; axis < 3; ++axis) {
-        if (p[axis] != q[axis]) return p[axis] < q[axis] ? -1 : 1;
+        const auto relation = std::weak_order(p[axis], q[axis]);  // also of values that are not numbers
+        if (relation != 0) return relation < 0 ? -1 : 1;
       }
     }
     return 0;

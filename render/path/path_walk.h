@@ -30,11 +30,11 @@ struct PathState {
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
 };
 
-/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex, a
-/// path traces up to `render.light_samples` shadow rays to lights (DirectLight), after the first up to twice
-/// as many (shadow_rays()), and draws one direction from
-/// the lobes for the ray to the next vertex. At most `render.bounces` scatterings follow the first. Roulette
-/// may end a path earlier; the lower the weight of the path, the more likely (survival()).
+/// Continues paths from any scatter point, and reports the light that they find to a sink. At the first
+/// vertex, a path traces up to `render.light_samples` shadow rays to lights (DirectLight), and at every later
+/// vertex up to twice as many. At each vertex, it draws one direction from the lobes for the ray to the next
+/// vertex. At most `render.bounces` scatterings follow the first. Roulette may end a path earlier; the lower
+/// the weight of the path, the more likely (survival()).
 ///
 /// A Sink has two members:
 ///   shadow(path, point, factor, through)
@@ -85,8 +85,6 @@ class PathWalk {
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Count of shadow rays of a vertex after the first / that of the first, at most.
-  static constexpr float kMoreRays = 2;
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
   /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
@@ -107,13 +105,11 @@ class PathWalk {
                         sink);
     }
   }
-  /// Returns the mean count of shadow rays at the current vertex. A vertex after the first has cost two rays
-  /// and more, so where its path brings as much light as the pixel shows, another shadow ray costs less than
-  /// the noise that it removes [Vorba16, "splitting"].
+  /// Returns the count of shadow rays at the current vertex: after the first, twice as many. Such a vertex
+  /// has cost two rays and more, so another shadow ray costs less than the noise that it removes [Vorba16,
+  /// "splitting"].
   float shadow_rays(const PathState& path) const {
-    const auto rays = static_cast<float>(direct_.rays());
-    if (path.vertex == 0) return rays;
-    return rays * std::clamp(kMoreRays * max_component(path.weight) / kShown, 1.0f, kMoreRays);
+    return static_cast<float>(path.vertex == 0 ? direct_.rays() : 2 * direct_.rays());
   }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 

@@ -2,6 +2,7 @@
 #include "render/reflection/cache_fill.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -39,6 +40,8 @@ void CacheFill::run(const Job& job, const Stopwatch& clock, std::optional<Reflec
   const CachePlan& plan = memory_.plan;
   scratch_ = std::vector<ReflectionPaths::Scratch>(static_cast<size_t>(job.workers.thread_count()));
   if (plan.slices > 1) slots_.emplace(scene_.lights.size(), plan.max_cells, plan.density());
+  start_s_ = clock.seconds();
+  job.progress.begin("reflection cache", 1);
   CellRange range(CellRange::kAll / plan.slices);
   while (!range.is_over()) {
     const size_t batch = plan.batch * CacheRounds(scene_.render).cells_of_tile();
@@ -55,6 +58,7 @@ void CacheFill::run(const Job& job, const Stopwatch& clock, std::optional<Reflec
         break;
     }
   }
+  job.progress.end();
   cache.emplace(scene_, std::move(*slots_), std::move(memory_.charge), job.ledger);
   counts_.bytes = static_cast<int64_t>(cache->bytes());
 }
@@ -64,9 +68,10 @@ CacheFill::SliceEnd CacheFill::fill_slice(const CellRange& range, const Job& job
                                           ReflectionTable& sum) {
   const CacheRounds rounds(scene_.render);
   const float limit_s = scene_.render.time_limit;
-  const double end_s =
-      limit_s > 0 ? kTimeShare * limit_s * range.share_done() : std::numeric_limits<double>::infinity();
-  job.progress.begin("reflection cache", static_cast<double>(tiles_.size()) * rounds.count);
+  const double end_s = limit_s > 0 ? std::lerp(start_s_, kTimeShare * limit_s, range.share_done())
+                                   : std::numeric_limits<double>::infinity();
+  const double total = static_cast<double>(tiles_.size()) * rounds.count;
+  double done = 0;
   PassEnd end = PassEnd::kDone;
   for (uint32_t round = 0; round < rounds.count && end == PassEnd::kDone; ++round) {
     for (size_t first = 0; first < tiles_.size() && end == PassEnd::kDone; first += memory_.plan.batch) {
@@ -75,15 +80,19 @@ CacheFill::SliceEnd CacheFill::fill_slice(const CellRange& range, const Job& job
       end = trace_batch({begin, begin + static_cast<std::ptrdiff_t>(size)}, {round, rounds.paths, range},
                         end_s, job, clock, sum);
       drop_cells(sum);
-      job.progress.advance(static_cast<double>(size));
-      if (sum.size() > memory_.plan.room && range.can_halve()) {
-        job.progress.end();
-        return SliceEnd::kTooLarge;
-      }
+      done += static_cast<double>(size);
+      show(std::lerp(range.share_before(), range.share_done(), done / total), job);
+      if (sum.size() > memory_.plan.room && range.can_halve()) return SliceEnd::kTooLarge;
     }
   }
-  job.progress.end();
   return job.progress.cancelled() ? SliceEnd::kCancelled : SliceEnd::kDone;
+}
+
+/// Shows that a part of all work is done, unless more was shown already: a slice may start again.
+void CacheFill::show(double part, const Job& job) {
+  if (part <= shown_) return;
+  job.progress.advance(part - shown_);
+  shown_ = part;
 }
 
 /// Traces the paths of a round of some tiles, and adds them to `sum` in the order of the tiles.

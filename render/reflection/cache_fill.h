@@ -50,6 +50,7 @@ class CacheFill {
   SliceEnd fill_slice(const CellRange& range, const Job& job, const Stopwatch& clock, ReflectionTable& sum);
   PassEnd trace_batch(const std::vector<Tile>& batch, const ReflectionPaths::Share& share, double end_s,
                       const Job& job, const Stopwatch& clock, ReflectionTable& sum);
+  void show(double part, const Job& job);
   void drop_cells(ReflectionTable& sum);
   void finish_slice(const CellRange& range, ReflectionTable sum);
 
@@ -60,6 +61,7 @@ class CacheFill {
   Memory memory_;
   std::vector<Tile> tiles_;
   std::vector<ReflectionPaths::Scratch> scratch_;  // by thread
+  double start_s_ = 0, shown_ = 0;                 // when filling began; part of the work shown as done
   // The finished slices:
   std::optional<ReflectionSlots> slots_;
   std::array<size_t, std::tuple_size_v<CellPath>> cells_{};  // by level, those with few paths included

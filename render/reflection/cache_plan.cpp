@@ -25,6 +25,8 @@ constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells 
 /// Min room of a slice: more than the cells in one largest cell, of which a slice cannot have less. These are
 /// 8 x 8 x 8 cubes with up to 7 parts of strands each, and those of twice the size.
 constexpr size_t kMinRoom = 4096;
+/// The part of the memory that is left which the cache takes if slices avoid more: 1 / kShares.
+constexpr int64_t kShares = 4;
 /// More samples add no more paths: cells have enough, and the picture must begin some time.
 constexpr int kMostSamples = 1024;
 
@@ -63,8 +65,8 @@ CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   CachePlan plan;
   plan.max_cells = pelage::max_cells(scene);
   plan.slices = slices;
-  plan.room =
-      slices == 1 ? plan.max_cells : std::min(plan.max_cells, std::max(plan.max_cells / slices, kMinRoom));
+  plan.room = slices == 1 ? plan.max_cells
+                          : std::min(plan.max_cells, std::max(plan.max_cells / slices * 5 / 4, kMinRoom));
   plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
   const size_t added = plan.batch * CacheRounds(scene.render).cells_of_tile();
   const size_t tables = ReflectionTable::max_bytes(added, lights);
@@ -80,7 +82,10 @@ CachePlan CachePlan::fitting(const RenderScene& scene, const MemoryLedger& ledge
   CachePlan plan;
   for (uint32_t slices = 1; slices <= kMostSlices; slices *= 2) {
     plan = with_slices(scene, slices);
-    if ((limit == 0 || plan.bytes <= limit) && has_room(ledger, 2 * plan.bytes)) return plan;
+    // Without a limit of its own, the cache leaves most of the memory to what comes after.
+    if (limit == 0 ? has_room(ledger, kShares * plan.bytes)
+                   : plan.bytes <= limit && has_room(ledger, plan.bytes))
+      return plan;
   }
   if (limit > 0 && plan.bytes > limit) {
     throw Error(ErrorKind::kMemory,

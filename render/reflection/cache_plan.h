@@ -15,7 +15,7 @@ namespace pelage {
 struct CachePlan {
   /// Max count of cells of the finished cache. Depends on the picture alone.
   size_t max_cells = 0;
-  uint32_t slices = 1;  ///< count of slices (CellRange) if all have about the same count of cells
+  uint32_t slices = 1;  ///< count of slices (CellRange); more if some have too many cells
   size_t room = 0;      ///< cells of one slice, at most
   size_t batch = 0;     ///< tiles whose paths are added up at once
   int64_t bytes = 0;    ///< upper bound of the memory while the cache is filled, and after
@@ -28,8 +28,9 @@ struct CachePlan {
   }
   /// Returns the plan with this count of slices.
   static CachePlan with_slices(const RenderScene& scene, uint32_t slices);
-  /// Returns the plan with the fewest slices that fits `render.gather.memory`, and half of what the ledger
-  /// leaves. If none does, the smallest plan. Throws Error (kMemory) if that exceeds `render.gather.memory`.
+  /// Returns the plan with the fewest slices that fits `render.gather.memory` or, by default, a quarter of
+  /// what the ledger leaves. If none does, the smallest plan. Throws Error (kMemory) if that exceeds
+  /// `render.gather.memory`.
   static CachePlan fitting(const RenderScene& scene, const MemoryLedger& ledger);
 };
 

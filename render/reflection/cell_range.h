@@ -24,6 +24,8 @@ class CellRange {
   bool is_all() const { return first_ == 0 && length_ >= kAll; }
   /// Returns whether all keys are before this range.
   bool is_over() const { return first_ >= kAll; }
+  /// Returns the part of all keys that is before this range.
+  double share_before() const { return static_cast<double>(first_) / static_cast<double>(kAll); }
   /// Returns the part of all keys that is before the end of this range, at most 1.
   double share_done() const {
     const uint64_t end = first_ + length_;

@@ -11,7 +11,7 @@
 namespace pelage {
 
 /// A radiance in 64 bits: per channel a float without sign, with 8 bits of exponent and 13 of mantissa. The
-/// error is at most 2^-14 of each channel, whatever the unit of radiance. Channels that are negative or not a
+/// error is at most 2^-14 of each channel, if that is a normal float. Channels that are negative or not a
 /// number become 0.
 class PackedRadiance {
  public:

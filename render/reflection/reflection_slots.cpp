@@ -8,9 +8,7 @@
 namespace pelage {
 namespace {
 
-// Stored keys that belong to no cell: a search ends at an empty slot, and goes on at one whose cell was
-// dropped. The level bits of a cell are not 0.
-constexpr uint64_t kEmpty = 0, kDropped = 4;
+constexpr uint64_t kEmpty = 0;  // what an empty slot stores as key; the level bits of a cell are not 0
 
 }  // namespace
 
@@ -24,7 +22,7 @@ void ReflectionSlots::add(const ReflectionTable& table, uint32_t fewest) {
     const ReflectionTable::Cell& cell = table.cell(i);
     if (cell.paths_of_largest < fewest) continue;
     size_t at = home(cell.key);
-    while (key_at(at) != kEmpty && key_at(at) != kDropped) at = after(at);
+    while (key_at(at) != kEmpty) at = after(at);
     key_at(at) = stored(cell.key, cell.level);
     for (size_t light = 0; light + 1 < words_; ++light)
       slots_[at * words_ + 1 + light] = PackedRadiance::pack(table.radiance(i)[light]);
@@ -34,10 +32,22 @@ void ReflectionSlots::add(const ReflectionTable& table, uint32_t fewest) {
 
 void ReflectionSlots::drop(uint32_t level) {
   for (size_t slot = 0; slot < count_; ++slot) {
-    if ((key_at(slot) & kLevelBits) != level + 1) continue;
-    key_at(slot) = kDropped;
-    --size_;
+    while ((key_at(slot) & kLevelBits) == level + 1) remove(slot);  // another cell may take the slot
   }
+}
+
+/// Empties a slot. Cells whose search would end there move up, so that no search meets a gap [Knuth98,
+/// section 6.4, algorithm R].
+void ReflectionSlots::remove(size_t slot) {
+  --size_;
+  for (size_t from = after(slot); key_at(from) != kEmpty; from = after(from)) {
+    const size_t start = home(key_at(from));
+    const bool stays = slot <= from ? slot < start && start <= from : slot < start || start <= from;
+    if (stays) continue;
+    for (size_t i = 0; i < words_; ++i) slots_[slot * words_ + i] = slots_[from * words_ + i];
+    slot = from;
+  }
+  key_at(slot) = kEmpty;
 }
 
 ReflectionSlots::Radiance ReflectionSlots::find(uint64_t key, uint32_t level) const {

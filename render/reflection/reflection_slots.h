@@ -65,6 +65,7 @@ class ReflectionSlots {
   /// Returns the slot where the search for a key starts. Keys are hashes.
   size_t home(uint64_t key) const { return static_cast<size_t>((key >> 32) * count_ >> 32); }
   size_t after(size_t slot) const { return slot + 1 < count_ ? slot + 1 : 0; }
+  void remove(size_t slot);
 
   size_t words_, count_, size_ = 0;  // words of 64 bits per slot; slots; cells
   std::vector<uint64_t> slots_;

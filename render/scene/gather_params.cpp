@@ -70,7 +70,7 @@ const Schema<GatherParams>& GatherParams::schema() {
              "with three (more in small pictures), but at most about 94 MB and 147 MB. With less memory, the "
              "cache is filled in several slices, which takes longer but changes no pixel. About a third "
              "of these figures suffices; Pelage refuses smaller limits",
-         .default_text = "half of what `render.memory` leaves, or more if that does not suffice"});
+         .default_text = "a quarter of what `render.memory` leaves, or more if that does not suffice"});
     return s;
   }();
   return table;

@@ -117,7 +117,8 @@ const Schema<RenderParams>& RenderParams::schema() {
            .min = 0,
            .max = 1e7});
     s.key("light_samples", &RenderParams::light_samples,
-          {.help = "Shadow rays per scattering event; up to twice as many for bright indirect light. More "
+          {.help = "Shadow rays where light is scattered towards the camera; up to twice as many at later "
+                   "surfaces. More "
                    "rays reduce noise but take longer, much like more samples",
            .min = 1,
            .max = 64});

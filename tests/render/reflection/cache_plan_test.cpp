@@ -26,7 +26,7 @@ TEST(CachePlan, MoreSlicesNeedLessMemoryForTheSameCells) {
   for (uint32_t slices = 1; slices <= CachePlan::kMostSlices; slices *= 2) {
     const CachePlan plan = CachePlan::with_slices(scene, slices);
     EXPECT_EQ(plan.max_cells, size_t{1} << 20);
-    EXPECT_EQ(plan.room, plan.max_cells / slices);
+    EXPECT_GE(plan.room, plan.max_cells / slices);
     EXPECT_GE(plan.batch, 1u);
     EXPECT_LT(plan.bytes, before);
     before = plan.bytes;
@@ -50,11 +50,11 @@ TEST(CachePlan, TakesTheFewestSlicesThatFit) {
   }
 }
 
-TEST(CachePlan, TakesNoMoreThanHalfOfWhatIsLeftIfSlicesAvoidIt) {
+TEST(CachePlan, TakesAQuarterOfWhatIsLeftIfSlicesAvoidMore) {
   const RenderScene scene = picture(640, 480, 16);
   const int64_t whole = CachePlan::with_slices(scene, 1).bytes;
   MemoryLedger ledger;
-  ledger.set_limit(static_cast<uint64_t>(2 * whole));
+  ledger.set_limit(static_cast<uint64_t>(4 * whole));
   EXPECT_EQ(CachePlan::fitting(scene, ledger).slices, 1u);
   const MemoryCharge used(ledger, MemoryTag::kSkins, whole / 2);
   EXPECT_GT(CachePlan::fitting(scene, ledger).slices, 1u);

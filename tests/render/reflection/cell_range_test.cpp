@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/reflection/cell_range.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "base/hash.h"

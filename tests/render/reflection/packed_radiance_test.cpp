@@ -2,6 +2,7 @@
 #include "render/reflection/packed_radiance.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
