@@ -65,6 +65,10 @@ Table bounce_table(const std::vector<BounceRun>& runs, const std::vector<Outcome
   add("found", "found", Quantity::kRatio, [&](const BounceRun& run) {
     return number(run, "reflections_found") / number(run, "reflection_lookups");
   });
+  add("slices", "slices", Quantity::kCount,
+      [&](const BounceRun& run) { return number(run, "reflection_slices"); });
+  add("cells_bytes", "cells, while read", Quantity::kBytes,
+      [&](const BounceRun& run) { return number(run, "reflection_bytes"); });
   add("cache_bytes", "cache, while filled", Quantity::kBytes,
       [&](const BounceRun& run) { return number(run, "memory_bytes.reflection_cache"); });
   return table;

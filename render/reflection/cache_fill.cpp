@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/memory_budget.h"
+#include "render/reflection/cache_rounds.h"
 
 namespace pelage {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory_budget.h"
+#include "render/reflection/cache_rounds.h"
 #include "render/reflection/cell_keys.h"
 #include "render/reflection/reflection_slots.h"
 #include "render/reflection/reflection_table.h"
@@ -17,7 +18,6 @@ namespace pelage {
 namespace {
 
 constexpr size_t kMostTiles = 32;  // whose paths are added up at once
-constexpr double kAtOnce = 4;      // paths per pixel and round
 /// Max count of cells: per pixel, but at least kFewestCells and at most kMostCells. Beyond, the smallest
 /// cells are dropped. So the limit depends on the picture alone. In large pictures, cells of twice the size
 /// are still small on the animal.
@@ -27,13 +27,6 @@ constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells 
 constexpr size_t kMinRoom = 4096;
 /// The part of the memory that is left which the cache takes if slices avoid more: 1 / kShares.
 constexpr int64_t kShares = 4;
-/// More samples add no more paths: cells have enough, and the picture must begin some time.
-constexpr int kMostSamples = 1024;
-
-double paths_per_pixel(const RenderParams& render) {
-  return double{render.gather.cache_paths} * std::min(render.samples, kMostSamples);
-}
-
 size_t tile_count(const RenderScene& scene) {
   const auto across = [](int side) {
     return static_cast<size_t>((side + CacheRounds::kSide - 1) / CacheRounds::kSide);
@@ -43,22 +36,15 @@ size_t tile_count(const RenderScene& scene) {
 
 size_t max_cells(const RenderScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
+  const CacheRounds rounds(scene.render);
   // Each tile of each round may round its count of paths up.
-  const double paths = std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels)) +
-                       static_cast<double>(tile_count(scene) * CacheRounds(scene.render).count);
+  const double paths = std::ceil(rounds.paths * static_cast<double>(rounds.count * pixels)) +
+                       static_cast<double>(tile_count(scene) * rounds.count);
   const size_t limit = std::clamp(kCellsPerPixel * pixels, kFewestCells, kMostCells);
   return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
 }
 
 }  // namespace
-
-CacheRounds::CacheRounds(const RenderParams& render)
-    : count(static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)))),
-      paths(paths_per_pixel(render) / count) {}
-
-size_t CacheRounds::cells_of_tile() const {
-  return static_cast<size_t>(std::ceil(paths * kSide * kSide + 1)) * std::tuple_size_v<CellPath>;
-}
 
 CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   const size_t lights = scene.lights.size();

@@ -34,16 +34,4 @@ struct CachePlan {
   static CachePlan fitting(const RenderScene& scene, const MemoryLedger& ledger);
 };
 
-/// Tiles are visited in rounds; each round traces a part of the paths of each pixel.
-struct CacheRounds {
-  static constexpr int kSide = 16;  ///< of a tile, in pixels
-
-  uint32_t count = 0;
-  double paths = 0;  ///< per pixel and round, on average
-
-  explicit CacheRounds(const RenderParams& render);
-  /// Returns the max count of cells that the paths of a tile add in one round.
-  size_t cells_of_tile() const;
-};
-
 }  // namespace pelage

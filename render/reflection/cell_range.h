@@ -8,13 +8,13 @@
 namespace pelage {
 
 /// A slice of the cells of the reflection cache: those whose largest cell has a key in a range. A cell and
-/// the larger cells around it are always in the same slice. Keys are hashes, so a part of all keys has about
-/// the same part of the cells. Keys are counted in units of 2^32.
+/// the larger cells around it are always in the same slice. Keys are hashes, so a quarter of all keys has
+/// about a quarter of all cells. A range is counted in units of 2^32 keys.
 class CellRange {
  public:
   static constexpr uint64_t kAll = uint64_t{1} << 32;
 
-  /// The first range. `length`: that of all ranges, unless they are halved; not 0.
+  /// Makes the first range. `length`: max length of each range, 1 to kAll.
   explicit CellRange(uint64_t length = kAll) : length_(length), most_(length) {}
 
   bool contains(const CellPath& cells) const {
@@ -22,7 +22,7 @@ class CellRange {
     return at >= first_ && at - first_ < length_;
   }
   bool is_all() const { return first_ == 0 && length_ >= kAll; }
-  /// Returns whether all keys are before this range.
+  /// Returns whether no keys are left: advance() has passed the last one.
   bool is_over() const { return first_ >= kAll; }
   /// Returns the part of all keys that is before this range.
   double share_before() const { return static_cast<double>(first_) / static_cast<double>(kAll); }

@@ -41,7 +41,7 @@ class ReflectionSlots {
   /// Removes all cells of a level.
   void drop(uint32_t level);
 
-  /// Returns the radiance of a cell. `level`: that of ReflectionTable::Cell.
+  /// Returns the radiance of the cell with this key and level (ReflectionTable::Cell), if there is one.
   Radiance find(uint64_t key, uint32_t level) const;
   /// Returns the count of cells.
   size_t size() const { return size_; }

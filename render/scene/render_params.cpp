@@ -117,8 +117,8 @@ const Schema<RenderParams>& RenderParams::schema() {
            .min = 0,
            .max = 1e7});
     s.key("light_samples", &RenderParams::light_samples,
-          {.help = "Shadow rays of a visible point; surfaces behind it have twice as many. More rays reduce "
-                   "noise but take longer, much like more samples",
+          {.help = "Shadow rays per visible point; later surfaces of a path get twice as many. More rays "
+                   "reduce noise but take longer, much like more samples",
            .min = 1,
            .max = 64});
     s.key("bounces", &RenderParams::bounces,
