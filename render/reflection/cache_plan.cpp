@@ -25,8 +25,9 @@ constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15, kMostCells 
 /// Min room of a slice: more than the cells in one largest cell, of which a slice cannot have less. These are
 /// 8 x 8 x 8 cubes with up to 7 parts of strands each, and those of twice the size.
 constexpr size_t kMinRoom = 4096;
-/// The part of the memory that is left which the cache takes if slices avoid more: 1 / kShares.
+/// By default, the cache takes at most 1 / kShares of the memory that is left, if slices make that possible.
 constexpr int64_t kShares = 4;
+
 size_t tile_count(const RenderScene& scene) {
   const auto across = [](int side) {
     return static_cast<size_t>((side + CacheRounds::kSide - 1) / CacheRounds::kSide);
