@@ -99,10 +99,10 @@ uint64_t sufficient_bytes(const Error& error) {
 /// A picture that is large enough for several slices.
 struct LargeCachedScene : CachedScene {
   LargeCachedScene() {
-    image.width = 80;
-    image.height = 60;
+    image.width = 48;
+    image.height = 36;
     render.samples = 2;
-    render.gather.cache_paths = 1;
+    render.gather.cache_paths = 6;
   }
 };
 
