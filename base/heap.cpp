@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/base/page_block_test.cpp.
 #include "base/heap.h"
 
 #if defined(__GLIBC__)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/base/memory_sampler_test.cpp.
 #include "base/memory_sample.h"
 
 #include <fstream>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/base/content_store_test.cpp.
 #include "base/shared_folders.h"
 
 #include <algorithm>

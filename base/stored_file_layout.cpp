@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/base/stored_sections_test.cpp.
 #include "base/stored_file_layout.h"
 
 #include <algorithm>

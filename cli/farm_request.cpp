@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/farm_test.py.
 #include "cli/farm_request.h"
 
 #include <filesystem>

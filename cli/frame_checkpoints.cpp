@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/checkpoint_test.py.
 #include "cli/frame_checkpoints.h"
 
 #include <filesystem>

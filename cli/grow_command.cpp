@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/grow_export_test.cpp.
 #include <algorithm>
 #include <atomic>
 #include <iostream>

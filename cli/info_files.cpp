@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/info_test.cpp.
 #include <algorithm>
 #include <limits>
 #include <map>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/info_test.cpp.
 #include <fmt/format.h>
 
 #include "base/counted.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/output_test.py.
 #include "cli/output_files.h"
 
 #include "base/error.h"

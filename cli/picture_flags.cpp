@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/picture_flags_test.py.
 #include "cli/picture_flags.h"
 
 #include <algorithm>

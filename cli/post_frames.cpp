@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/post_commands_test.cpp.
 #include "cli/post_frames.h"
 
 #include <filesystem>

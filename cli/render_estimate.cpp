@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/estimate_test.py.
 #include "cli/render_estimate.h"
 
 #include <algorithm>

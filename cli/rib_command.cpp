@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/rib_test.py.
 #include <filesystem>
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/options_test.cpp.
 #include "cli/rib_flags.h"
 
 #include <CLI/App.hpp>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/render_command_test.cpp.
 #include "cli/run.h"
 
 #include <exception>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/why_test.py.
 #include <iostream>
 #include <memory>
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/farm/shot_state_test.cpp.
 #include "farm/plan_file.h"
 
 #include <set>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/farm/shot_page_test.cpp.
 #include "farm/thumbnail.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/limit_surface_test.cpp.
 #include "geom/cage_refiner.h"
 
 #include <algorithm>

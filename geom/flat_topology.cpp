@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/flat_surface_test.cpp.
 #include "geom/flat_topology.h"
 
 #include <algorithm>

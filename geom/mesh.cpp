@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/surface_topology_test.cpp.
 #include "geom/mesh.h"
 
 namespace pelage {

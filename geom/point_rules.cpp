@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/limit_surface_test.cpp.
 #include <bit>
 
 #include "base/check.h"

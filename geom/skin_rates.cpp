@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/skin_pieces_test.cpp.
 #include "geom/skin_rates.h"
 
 #include <algorithm>

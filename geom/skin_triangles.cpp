@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/skin_pieces_test.cpp.
 // Fills the faces of a SkinLattice with triangles.
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/closest_point_test.cpp.
 #include "geom/triangle_distance.h"
 
 #include <algorithm>

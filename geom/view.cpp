@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/tessellation_test.cpp.
 #include "geom/view.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/skin_balls_test.cpp.
 #include "geom/winding.h"
 
 #include <algorithm>

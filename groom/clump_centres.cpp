@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/clump_test.cpp.
 #include "groom/clump_centres.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/follicles_test.cpp.
 #include "groom/follicle_candidates.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/strand_codes_test.cpp.
 #include <algorithm>
 
 #include "base/hash.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/groom_cache_test.cpp.
 #include <algorithm>
 #include <cstring>
 #include <numbers>

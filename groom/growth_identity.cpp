@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/groom_identity_test.cpp.
 #include "groom/growth_identity.h"
 
 #include "base/program_identity.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/guides_test.cpp.
 #include "groom/named_strands.h"
 
 #include <utility>

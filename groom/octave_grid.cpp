@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/noise_test.cpp.
 #include "groom/octave_grid.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/groom_test.cpp.
 #include "groom/skin_binding.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/curl_test.cpp.
 #include "groom/turning.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/progressive_order_test.cpp.
 #include "groom/waiting_candidates.h"
 
 #include <algorithm>

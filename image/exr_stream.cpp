@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/exr_test.cpp.
 #include "image/exr_stream.h"
 
 #include <cstddef>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/field_test.cpp.
 #include "image/field_nodes.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/texture_test.cpp.
 #include "image/image_file_check.h"
 
 #include <filesystem>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/texture_test.cpp.
 #include "image/reader_module.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/texture_test.cpp.
 #include "image/texel_decoder.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/texture_library_test.cpp.
 // Tiles in OpenImageIO's image cache, which keeps recently used ones within a memory limit.
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/texture_library_test.cpp.
 #include "image/tile_file.h"
 
 #include <algorithm>

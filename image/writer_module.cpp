@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/image/display_image_test.cpp.
 #include <cstdio>
 #include <exception>
 #include <memory>

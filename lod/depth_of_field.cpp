@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lod/measures_test.cpp.
 #include "lod/depth_of_field.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lod/fewer_points_test.cpp.
 #include "lod/point_fit.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/post/merge_pieces_test.cpp.
 #include "post/piece_headers.h"
 
 #include <algorithm>

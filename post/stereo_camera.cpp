@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/post/stereo_file_test.cpp.
 #include <cmath>
 
 #include "post/stereo_file.h"

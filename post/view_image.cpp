@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/post/blur_file_test.cpp.
 #include "post/view_image.h"
 
 #include <algorithm>

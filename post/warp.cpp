@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/post/flow_field_test.cpp.
 #include "post/warp.h"
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/remembered_bounds_test.cpp.
 #include "procedurals/bounds_file.h"
 
 #include <algorithm>

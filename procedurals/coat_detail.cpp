@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/thinned_fur_test.cpp.
 #include "procedurals/coat_detail.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/crowd_test.cpp.
 #include "procedurals/crowd_placement.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/bounding_test.cpp.
 #include "procedurals/measured_bounds.h"
 
 #include <algorithm>

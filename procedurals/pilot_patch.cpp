@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/width_pilot_test.cpp.
 #include "procedurals/pilot_patch.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/archive_coats_test.cpp.
 #include "procedurals/placed_procedural.h"
 
 #include <algorithm>

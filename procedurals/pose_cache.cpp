@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/posed_character_skin_test.cpp.
 #include "procedurals/pose_cache.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/coat_sample_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/root_spacing_test.cpp.
 #include "procedurals/spread_follicles.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/frame_estimate_test.cpp.
 #include "render/shadow_estimate.h"
 
 #include <algorithm>

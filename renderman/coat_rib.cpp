@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/renderman/scene_rib_test.cpp.
 #include "renderman/coat_rib.h"
 
 #include <algorithm>

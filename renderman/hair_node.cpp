@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/renderman/hair_session_test.cpp.
 #include "renderman/hair_node.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/scene/include_test.cpp.
 #include "scene/document.h"
 
 #include <algorithm>

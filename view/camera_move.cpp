@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/view/scene_commands_test.cpp.
 #include "view/camera_move.h"
 
 namespace pelage {

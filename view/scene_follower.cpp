@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/view/live_renderer_test.cpp.
 #include "view/scene_follower.h"
 
 #include <exception>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/view/live_renderer_test.cpp.
 #include "view/stage_progress.h"
 
 #include <algorithm>

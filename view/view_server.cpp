@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/view/view_test.py.
 #include "view/view_server.h"
 
 #include <algorithm>

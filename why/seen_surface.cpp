@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/why/pixel_why_test.cpp.
 #include "why/seen_surface.h"
 
 #include <algorithm>

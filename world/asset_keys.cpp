@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/assets_test.cpp.
 #include "world/asset_keys.h"
 
 #include <vector>

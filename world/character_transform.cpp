@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/compose_test.cpp.
 #include "world/character_transform.h"
 
 #include <numbers>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/checkpoint_test.cpp.
 #include "world/checkpoint_file.h"
 
 #include <charconv>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/crowd_test.cpp.
 #include "world/crowds.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/colony_test.cpp.
 #include "world/drawn_characters.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/renderman/frame_coats_test.cpp.
 #include "world/frame_coats.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/scene_schema_test.cpp.
 #include <algorithm>
 #include <limits>
 #include <map>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/rib_document_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/accelerators_test.cpp.
 #include "world/world.h"
 
 #include <fmt/format.h>

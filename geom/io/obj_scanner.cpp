@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/io/obj_file_test.cpp.
 #include "geom/io/obj_scanner.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/geom/io/strand_file_test.cpp.
 #include "geom/io/strand_repair.h"
 
 #include <algorithm>

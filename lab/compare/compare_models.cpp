@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/compare_command_test.cpp.
 #include "lab/compare/compare_models.h"
 
 #include <fmt/format.h>

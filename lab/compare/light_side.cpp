@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/compare/comparison_test.cpp.
 #include "lab/compare/light_side.h"
 
 #include <cmath>

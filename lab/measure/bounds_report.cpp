@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/measure_test.py.
 #include "lab/measure/bounds_report.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/pictures/picture_error_test.cpp.
 #include "lab/pictures/plane.h"
 
 #include <algorithm>

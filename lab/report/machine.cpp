@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/runs/variant_test.cpp.
 #include "lab/report/machine.h"
 
 #include <cstdlib>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/report/report_test.cpp.
 #include "lab/report/markup.h"
 
 namespace pelage {

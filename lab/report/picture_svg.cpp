@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/report/canvas_test.cpp.
 #include "lab/report/picture_svg.h"
 
 #include "lab/report/png.h"

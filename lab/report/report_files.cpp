@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/measure_test.py.
 #include "lab/report/report_files.h"
 
 #include <vector>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/lab/runs/variant_test.cpp.
 #include "lab/runs/run_statistics.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_deferred_test.cpp.
 // Archives, and procedurals.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_reading_test.cpp.
 // Transforms, attributes and shaders.
 #include <algorithm>
 #include <cmath>

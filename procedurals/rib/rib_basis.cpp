@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_curve_reader_test.cpp.
 #include "procedurals/rib/rib_basis.h"
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_reading_test.cpp.
 // Blocks of the graphics state, of frames, of motion, and objects.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_lexer_test.cpp.
 #include "procedurals/rib/rib_bytes.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_reading_test.cpp.
 #include "procedurals/rib/rib_interpreter.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/procedurals/rib/rib_programs_test.cpp.
 // Procedurals that run code: Pelage's own, which Pelage does not run, and others.
 #include <algorithm>
 #include <cmath>

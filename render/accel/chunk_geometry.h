@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/embree_chunk_test.cpp.
 #pragma once
 
 #include <cstddef>

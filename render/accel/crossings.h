@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/accel_reference_test.cpp.
 #pragma once
 
 #include <algorithm>

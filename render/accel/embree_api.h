@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/embree_accel_test.cpp.
 #pragma once
 
 // Only this file includes Embree's headers or depends on Embree's version. Embree 3.13 and Embree 4 describe

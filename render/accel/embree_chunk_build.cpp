@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/embree_chunk_test.cpp.
 // The part of EmbreeChunk that passes strands and skins to Embree.
 #include "render/accel/embree_chunk.h"
 #include "render/accel/embree_query.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/embree_accel_test.cpp.
 #include "render/accel/embree_query.h"
 
 #include <algorithm>

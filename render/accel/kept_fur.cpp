@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/resident_chunks_test.cpp.
 #include "render/accel/kept_fur.h"
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/packed_strands_test.cpp.
 #include "render/accel/packed_values.h"
 
 #include <algorithm>

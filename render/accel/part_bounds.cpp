@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/chunk_accel_test.cpp.
 #include "render/accel/part_bounds.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/raster/min_width_test.cpp.
 #include "render/accel/widened_fur.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/camera/camera_test.cpp.
 #include "base/value_readers.h"
 #include "render/camera/camera.h"
 

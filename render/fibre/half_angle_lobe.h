@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/fibre/marschner_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/fibre/yan_test.cpp.
 #include "render/fibre/path_lengths.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/fibre/fibre_weight_test.cpp.
 #include "render/fibre/tangle.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/film/film_test.cpp.
 #include "render/film/film_layers.h"
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/film/film_test.cpp.
 #include "render/film/filter_sampler.h"
 
 #include <algorithm>

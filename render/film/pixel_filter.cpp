@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/film/film_sums_test.cpp.
 #include "render/film/pixel_filter.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/splatted_path_test.cpp.
 #include "render/frame/camera_samples.h"
 
 #include "base/hash.h"

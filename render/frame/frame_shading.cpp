@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/path_integrator_test.cpp.
 #include "render/frame/frame_shading.h"
 
 #include <algorithm>

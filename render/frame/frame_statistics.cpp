@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/statistics_test.cpp.
 #include "render/frame/frame_statistics.h"
 
 namespace pelage {

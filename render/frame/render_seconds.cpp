@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/frame/ray_meter_test.cpp.
 #include "render/frame/render_seconds.h"
 
 #include <algorithm>

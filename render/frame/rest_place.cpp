@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/gather/coat_cells_test.cpp.
 #include "render/frame/rest_place.h"
 
 #include "geom/rest_position.h"

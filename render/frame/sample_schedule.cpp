@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/adaptive_path_test.cpp.
 #include "render/frame/sample_schedule.h"
 
 #include <algorithm>

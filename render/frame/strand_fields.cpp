@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/frame/frame_chunks_test.cpp.
 #include "render/frame/strand_fields.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/gather/gather_integrator_test.cpp.
 #include "render/gather/indirect_paths.h"
 
 #include <algorithm>

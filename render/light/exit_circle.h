@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/light/scatter_point_test.cpp.
 #pragma once
 
 #include <algorithm>

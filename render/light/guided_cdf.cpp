@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/light/environment_light_test.cpp.
 #include "render/light/guided_cdf.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/light/direct_light_test.cpp.
 #pragma once
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/frame/skin_shadows_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/light/area_light_test.cpp.
 #include "render/light/sphere_light.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/fibre/fibre_model_test.cpp.
 #include "render/material/fibre_params.h"
 
 #include "render/material/absorption.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/light/light_params_test.cpp.
 #include "render/material/material.h"
 
 #include "render/material/fibre_keys.h"

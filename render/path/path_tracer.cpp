@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/path_furnace_test.cpp.
 #include "render/path/path_tracer.h"
 
 #include "render/light/seen_lights.h"

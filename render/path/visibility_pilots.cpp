@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/learned_visibility_test.cpp.
 #include "render/path/visibility_pilots.h"
 
 #include <algorithm>

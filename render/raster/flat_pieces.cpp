@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/raster/tile_raster_test.cpp.
 #include "render/raster/flat_pieces.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/raster/tile_raster_test.cpp.
 #include "render/raster/line_runs.h"
 
 #include <algorithm>

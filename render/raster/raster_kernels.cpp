@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/raster/tile_raster_test.cpp.
 // Compiled once per instruction set. Lanes are independent, and products and sums are never fused, so that
 // every instruction set gives the same bits.
 #include "render/accel/highway_targets.h"

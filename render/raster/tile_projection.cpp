@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/raster/depth_grid_test.cpp.
 #include "render/raster/tile_projection.h"
 
 #include <algorithm>

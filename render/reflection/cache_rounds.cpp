@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/reflection/cache_plan_test.cpp.
 #include "render/reflection/cache_rounds.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/reflection/reflection_cache_test.cpp.
 #include "render/reflection/reflection_paths.h"
 
 #include <cmath>

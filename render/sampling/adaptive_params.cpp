@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/sampling/adaptive_rule_test.cpp.
 #include "render/sampling/adaptive_params.h"
 
 namespace pelage {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/renderman/ri_plugin_test.cpp.
 #include "renderman/plugin/ri_host.h"
 
 #include <cstdio>

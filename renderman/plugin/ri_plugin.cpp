@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/renderman/ri_plugin_test.cpp.
 //
 // libpelage_ri.so: coats as procedurals of a RenderMan-compliant renderer, which finds the three functions
 // below by their names [RISPEC 3.2, procedural primitives]. No exception leaves them.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/fur/fur_intersection_test.cpp.
 // Compiled once per instruction set. Lanes are independent, products and sums are never fused, and no
 // approximations are used, so that every instruction set gives the same bits.
 #include "render/accel/highway_targets.h"

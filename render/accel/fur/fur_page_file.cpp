@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/fur/fur_pages_test.cpp.
 #include "render/accel/fur/fur_page_file.h"
 
 #include <mutex>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/fur_chunk_test.cpp.
 #include "render/accel/fur/fur_parts.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/fur/fur_tree_test.cpp.
 #include <algorithm>
 #include <numeric>
 

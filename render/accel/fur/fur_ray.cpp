@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/accel/fur/fur_intersection_test.cpp.
 #include "render/accel/fur/fur_ray.h"
 
 #include <algorithm>
