@@ -84,13 +84,9 @@ TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameO
 bool prepare_shadows(const RenderScene& scene, FrameGeometry& geometry, const Job& job,
                      std::unique_ptr<const VisibilityTable>& table, PathOptions& path,
                      FrameStatistics& statistics) try {
-  if (const SkinBallUse use = scene.render.ball_use(scene.skins.size()); use != SkinBallUse::kOff) {
+  if (scene.render.ball_use(scene.skins.size()) != SkinBallUse::kOff) {
     const Stopwatch clock;
-    SkinShadows& shadows = geometry.shadows(scene, job);
-    path.known.balls = &shadows;
-    shadows.set_shells({});
-    if (use == SkinBallUse::kFractional && scene.lights.size() > 0)
-      shadows.set_shells(VisibilityPilots(scene, geometry.accel(), path).fit_shells(job, statistics));
+    path.known.balls = &geometry.shadows(scene, job);
     statistics.stages_s["skin balls"] += clock.seconds();
   }
   if (scene.render.learned_visibility != LearnedUse::kOff && scene.lights.size() > 0) {

@@ -48,11 +48,6 @@ ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job) {
   const SkinBallUse use = scene.render.ball_use(scene.skins.size());
   if (use != SkinBallUse::kOff && !scene.skins.empty()) add_balls(scene, job, estimate);
   if (scene.lights.size() == 0) return estimate;
-  if (use == SkinBallUse::kFractional) {
-    const PilotNeeds shells = VisibilityPilots::needs_of_shells(scene);
-    estimate.learning_bytes = shells.tracing_bytes / kReserved;
-    estimate.cpu_s += kPilotRay_s * static_cast<double>(shells.rays);
-  }
   if (scene.render.learned_visibility != LearnedUse::kOff) {
     const PilotNeeds table = VisibilityPilots::needs_of_table(scene);
     estimate.learning_bytes = std::max(estimate.learning_bytes, table.tracing_bytes / kReserved);

@@ -47,12 +47,10 @@ std::vector<ShadingCurve> occlusion_curves() {
   return {by_path("skin_ball", "path, skin_ball: exact", "exact", "false"),
           by_path("learned", "path, learned_visibility: true", "off", "true"),
           by_path("skin_ball_learned", "path, skin_ball: exact, learned_visibility: true", "exact", "true"),
-          by_path("fractional", "path, skin_ball: fractional", "fractional", "false"),
           by_path("reject", "path, learned_visibility: reject", "off", "reject"),
           by_gather("gather_skin_ball", "gather, skin_ball: exact", "exact", "false"),
           by_gather("gather_skin_ball_learned", "gather, skin_ball: exact, learned_visibility: true", "exact",
-                    "true"),
-          by_gather("gather_fractional", "gather, skin_ball: fractional", "fractional", "false")};
+                    "true")};
 }
 
 /// `path` or `gather` with the opposite of one switch of the scene.

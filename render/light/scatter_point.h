@@ -70,14 +70,6 @@ class ScatterPoint {
     return shadow_.ball.radius > 0 && shadow_.blocks(start(wi), wi, far);
   }
 
-  const SkinShadow& shadow() const { return shadow_; }
-  /// Returns the fraction of light that arrives along a ray from start(wi), by the shell of the coat. Empty
-  /// if there is none, so that the ray must be traced.
-  std::optional<float> modelled_light(const V3f& wi, float far) const {
-    if (!(shadow_.shell.thickness > 0)) return std::nullopt;
-    if (is_shadowed(wi, far)) return 0.0f;
-    return shadow_.shell.transmittance(shadow_.ball, start(wi), wi, far);
-  }
   void set_learned(const LearnedVisibility& learned) { learned_ = learned; }
   /// Returns what is known about the visibility of lights from here.
   const LearnedVisibility& learned() const { return learned_; }

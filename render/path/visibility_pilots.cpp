@@ -16,8 +16,6 @@ namespace {
 constexpr uint32_t kVertices = 3;  // of a pilot at which lights are asked
 constexpr int kTargets = 4;        // groups of candidates per vertex
 constexpr size_t kPixelsPerPilot = 4, kMinPilots = 256, kMaxPilots = size_t(1) << 15;
-constexpr uint32_t kNoSkin = std::numeric_limits<uint32_t>::max();
-constexpr size_t kMaxFitted = 20000;          // rays to which a shell is fitted
 constexpr size_t kBlock = 64, kBatch = 4096;  // pilots of one task, and between two additions to the table
 
 enum Draw : uint32_t { kLight = 0, kLobe = 1, kVertexDraws = 3 };
@@ -34,8 +32,7 @@ struct VisibilityPilots::PilotRay {
   uint32_t light, stratum;
   V3f from;  // the position whose cell learns from this ray
   bool on_strand;
-  uint32_t skin;  // whose ball is in `ray`; kNoSkin: none
-  ShellRay ray;
+  float through;  // fraction of light that arrives
 };
 
 struct VisibilityPilots::Scratch final : SampleScratch {
@@ -82,16 +79,10 @@ void VisibilityPilots::follow(size_t pilot, Scratch& scratch, std::vector<PilotR
     direct_.propose(
         point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
     const bool on_strand = hit.kind == HitKind::kStrand;
-    const SkinShadow& below = point.shadow();
     for (const LightPoint& to : scratch.direct.points) {
       const Ray shadow = leave(to.direction, to.distance * DirectLight::kJustBefore);
-      const float through = scratch.light_through(accel_, shadow);
-      rays.push_back({static_cast<uint32_t>(to.light),
-                      to.stratum,
-                      point.position(),
-                      on_strand,
-                      below.ball.radius > 0 ? below.skin : kNoSkin,
-                      {below.ball, shadow.origin, shadow.direction, shadow.far, through}});
+      rays.push_back({static_cast<uint32_t>(to.light), to.stratum, point.position(), on_strand,
+                      scratch.light_through(accel_, shadow)});
     }
     stream.seek(draws + kLobe);
     const auto sample = point.sample(stream.next3d());
@@ -140,12 +131,6 @@ PilotNeeds VisibilityPilots::needs_of_table(const RenderScene& scene) {
   return needs;
 }
 
-PilotNeeds VisibilityPilots::needs_of_shells(const RenderScene& scene) {
-  PilotNeeds needs = needs_of_rays(scene, std::min(count(scene), kBatch));
-  needs.tracing_bytes = 2 * batch_bytes(scene);
-  return needs;
-}
-
 void VisibilityPilots::add_costs(const std::vector<Scratch>& scratch, FrameStatistics& statistics) {
   for (const Scratch& of_thread : scratch) {
     statistics.trace += of_thread.thread.counts;
@@ -165,7 +150,7 @@ std::unique_ptr<const VisibilityTable> VisibilityPilots::learn(const Job& job,
     // In the order of the pilots, so that sums of floats do not depend on threads.
     for (const auto& block : trace(begin, std::min(begin + kBatch, pilots), job, scratch)) {
       for (const PilotRay& ray : block)
-        table->add(table->key(ray.from, ray.on_strand), ray.light, ray.stratum, ray.ray.through);
+        table->add(table->key(ray.from, ray.on_strand), ray.light, ray.stratum, ray.through);
     }
   }
   table->freeze(scene_.render.learned_visibility);
@@ -173,23 +158,6 @@ std::unique_ptr<const VisibilityTable> VisibilityPilots::learn(const Job& job,
   table->charge(job.ledger);
   add_costs(scratch, statistics);
   return table;
-}
-
-std::vector<CoatShell> VisibilityPilots::fit_shells(const Job& job, FrameStatistics& statistics) const {
-  const MemoryCharge charge = reserve(job.ledger, MemoryTag::kReflectionCache,
-                                      needs_of_shells(scene_).tracing_bytes, "fitting the shells of coats");
-  std::vector<Scratch> scratch(static_cast<size_t>(job.workers.thread_count()));
-  std::vector<std::vector<ShellRay>> by_skin(scene_.skins.size());
-  for (const auto& block : trace(0, std::min(count(scene_), kBatch), job, scratch)) {
-    for (const PilotRay& ray : block) {
-      const bool is_used = ray.on_strand && ray.skin != kNoSkin && by_skin[ray.skin].size() < kMaxFitted;
-      if (is_used) by_skin[ray.skin].push_back(ray.ray);
-    }
-  }
-  std::vector<CoatShell> shells;
-  for (const auto& rays : by_skin) shells.push_back(fit_shell(rays));
-  add_costs(scratch, statistics);
-  return shells;
 }
 
 }  // namespace pelage

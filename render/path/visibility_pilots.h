@@ -6,7 +6,6 @@
 
 #include "base/job.h"
 #include "render/frame/camera_samples.h"
-#include "render/frame/coat_shell.h"
 #include "render/frame/frame_shading.h"
 #include "render/frame/frame_statistics.h"
 #include "render/frame/visibility_table.h"
@@ -37,12 +36,8 @@ class VisibilityPilots {
   /// Traces all pilots, and returns what they learned. Adds their rays to `statistics`. Throws Error
   /// (kMemory) if the table may not fit `render.memory`, and Error (kStopped) when the job is stopped.
   std::unique_ptr<const VisibilityTable> learn(const Job& job, FrameStatistics& statistics) const;
-  /// Traces some pilots, and fits a shell to the coats of each skin with balls. As learn() otherwise.
-  std::vector<CoatShell> fit_shells(const Job& job, FrameStatistics& statistics) const;
   /// Returns what learn() takes.
   static PilotNeeds needs_of_table(const RenderScene& scene);
-  /// Returns what fit_shells() takes.
-  static PilotNeeds needs_of_shells(const RenderScene& scene);
 
  private:
   struct PilotRay;

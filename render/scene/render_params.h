@@ -30,10 +30,10 @@ struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
 /// How the balls inside skins replace shadow rays.
-enum class SkinBallUse { kOff, kExact, kFractional };
+enum class SkinBallUse { kOff, kExact };
 template <>
 struct EnumNames<SkinBallUse> {
-  static constexpr const char* names[] = {"off", "exact", "fractional"};
+  static constexpr const char* names[] = {"off", "exact"};
 };
 /// How visibility that pilot rays have learned chooses shadow rays.
 enum class LearnedUse { kOff, kOn, kReject };

@@ -72,20 +72,5 @@ TEST(LearnedVisibilityPath, IsRefusedWithoutRoom) {
   }
 }
 
-TEST(FractionalBall, TracesFewShadowRaysAndIsNearTheTruth) {
-  for (const Integrator integrator : {Integrator::kPath, Integrator::kGather}) {
-    SkinBallScene scene;
-    scene.render.integrator = integrator;
-    const Runs off = run(scene, 2);
-    scene.render.skin_ball = SkinBallUse::kFractional;
-    expect_equal(picture_of(scene.run({}, 1).film), picture_of(scene.run({}, 4).film));
-    const FrameResult result = scene.run({}, 2);
-    EXPECT_GT(result.statistics.occlusion.rays_modelled, 10000);
-    EXPECT_EQ(result.statistics.rays.shadow > 0, true) << "pilots";
-    // The fit keeps the mean transmittance, but not that of each light and place.
-    EXPECT_NEAR(luminance(picture_mean(result.film).mean), off.mean, 0.15 * off.mean);
-  }
-}
-
 }  // namespace
 }  // namespace pelage
