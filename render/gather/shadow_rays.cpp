@@ -168,7 +168,7 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
       light.add_arriving(knot, ray.light, ray.lobes, pilots[i].factor * (pilots[i].through - expected(ray)));
     }
   }
-  guess.learn();
+  guess.learn(scene_.render.gather.reject);
 }
 
 }  // namespace pelage

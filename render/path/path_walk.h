@@ -166,14 +166,11 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
   if (lights.points.empty()) return;
   seek(path, kLightChoice);
-  bool is_traced = false;
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
-    is_traced = true;
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
     sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
-  scratch.costs.occlusion.rays_ended += is_traced ? 0 : 1;
 }
 
 /// Reports the lights that a ray drawn from the lobes of the current vertex `point` hits before `distance`.
