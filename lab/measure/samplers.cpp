@@ -43,7 +43,7 @@ struct Row {
 class Sweep {
  public:
   Sweep(int max, const MeasureSetup& setup, Progress& progress)
-      : max_(max), progress_(progress), runner_(setup, progress, 2 + 6 * std::size(kPlainShares)) {}
+      : max_(max), progress_(progress), runner_(setup, progress, 2 + 5 * std::size(kPlainShares)) {}
 
   void run() {
     for (const char* id : {"reference-a", "reference-b"}) {
@@ -61,18 +61,14 @@ class Sweep {
         return;
       // The noise of uniform sampling is the noise budget of the others.
       const std::string noise = fmt::format("{:g}", outcomes[plain].number("noise"));
-      const auto adaptive = [&](const char* id, const char* title, const char* rule, const char* goal) {
-        Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
-                                     max_, outcomes.size());
-        set(variant, "render.adaptive.rule", rule);
+      const auto adaptive = [&](const char* goal) {
+        Variant variant = variant_of(fmt::format("{}-{}", goal, samples),
+                                     fmt::format("adaptive, {}, {}", goal, samples), max_, outcomes.size());
         set(variant, "render.adaptive.goal", goal);
         set(variant, "render.adaptive.noise", noise);
         return add(variant, samples, plain);
       };
-      if (!adaptive("frame", "two-stage, frame", "two-stage", "frame") ||
-          !adaptive("pixel", "two-stage, pixel", "two-stage", "pixel") ||
-          !adaptive("seed", "seed", "seed", "frame"))
-        return;
+      if (!adaptive("frame") || !adaptive("pixel")) return;
       const auto gather = [&](const char* id, const char* title, const char* reject) {
         Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
                                      samples, outcomes.size());

@@ -108,9 +108,9 @@ class Measure(unittest.TestCase):
     def test_samplers(self):
         self.measure("samplers", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--set", "render.samples=256")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        self.assertEqual(len(rows), 14)
+        self.assertEqual(len(rows), 12)
         for samples in 16, 64:
-            plain, frame = rows[f"plain, {samples}"], rows[f"two-stage, frame, {samples}"]
+            plain, frame = rows[f"plain, {samples}"], rows[f"adaptive, frame, {samples}"]
             self.assertEqual(plain["samples"], samples)
             self.assertAlmostEqual(plain["gain"], 1, 6)
             self.assertGreater(frame["samples"], 3)
