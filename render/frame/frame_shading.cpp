@@ -132,7 +132,7 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
 }
 
 float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
-  const std::optional<Simplification>& lod = detail(hit);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   if (!lod) return 1;
   if (const std::optional<RootDetail> detail = RootDetail::of(strand, 0)) return detail->share();
   return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
@@ -155,7 +155,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
   const FibreBsdf bsdf = fibre.material.at(at);
-  const std::optional<Simplification>& lod = detail(hit);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1) {
     RepresentedStrand represented = represented_strand(*lod, share, ray, hit, strand);

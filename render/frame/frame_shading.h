@@ -45,11 +45,6 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // empty: Lambert
   };
 
-  /// Returns the reduction of detail of the strand that was hit; empty: not reduced.
-  const std::optional<Simplification>& detail(const Hit& hit) const {
-    const FurPart& part = scene_.fur[hit.part];
-    return hit.start.distant ? part.distant.lod : part.lod;
-  }
   /// Returns the fraction of strands that level of detail keeps where this strand grows; 1 without level of
   /// detail.
   float kept_share(const Hit& hit, const Strands& strand) const;

@@ -153,7 +153,7 @@ Ray PathWalk<Sink>::leaving_ray(const ScatterPoint& point, const V3f& direction,
   ray.origin = point.start(direction);
   ray.direction = direction;
   ray.time = path.time;
-  ray.start = point.can_hit_own_strand() ? path.hit.start.without_strand() : path.hit.start;
+  if (!point.can_hit_own_strand()) ray.start = path.hit.start;
   return ray;
 }
 

@@ -174,8 +174,7 @@ void TileRaster::find_candidates(std::array<bool, 2> wanted, const Beam& beam, f
   for (uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
     const size_t kind = chunks_.is_skin(chunk) ? kSkin : kFur;
     Scratch::Candidate candidate{0, chunk};
-    if (!wanted[kind] || chunks_.range(chunk).is_distant() ||
-        !beam.meets(seen_box(chunks_.boxes().whole(chunk)), far, candidate.entry) ||
+    if (!wanted[kind] || !beam.meets(seen_box(chunks_.boxes().whole(chunk)), far, candidate.entry) ||
         !(after[kind] < candidate))
       continue;
     auto& candidates = scratch.candidates[kind];

@@ -69,10 +69,8 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
         {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
                  "whose width is width times opacity. These rays then end at the first strand, which saves "
                  "time; the mean light stays the same. Camera rays still see semi-transparent strands"});
-  s.key("occlusion_detail", &RenderParams::occlusion_detail,
-        {.help = "From a distance on that depends on the coat, shadow rays and indirect rays see "
-                 "a fraction of the strands, widened to cover about as much (approximate). Camera rays still "
-                 "see all strands"});
+  s.remove(
+      {"occlusion_detail", "it gained too little for its growth and approximation; leave it out", "false"});
 }
 
 }  // namespace
