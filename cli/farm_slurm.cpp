@@ -137,7 +137,8 @@ SlurmParams slurm_params(const Options& options, const fs::path& folder, const R
 /// CPU seconds of the shot, roughly.
 struct ShotCost {
   double whole_s = 0;     ///< if its frames were not divided
-  double repeated_s = 0;  ///< that regions add, at most: each starts up, measures boxes and grows all chunks
+  /// Max extra CPU seconds caused by regions, since each repeats start-up, bounding and growth.
+  double repeated_s = 0;
 };
 
 /// CPU time of reading a chunk from render.bvh.file, as a fraction of growing it (docs/lab/FARM.md).

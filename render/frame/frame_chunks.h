@@ -64,7 +64,7 @@ class FrameChunks final : public ChunkGrower {
   /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
   /// Empty when unknown.
   std::optional<ContentHash> content(uint32_t leaf) const;
-  /// Makes the first growth of a leaf count as growing its strands again. Call before that growth.
+  /// Counts the next growth of this leaf as a regrowth. Call before its first growth.
   void mark_grown(uint32_t leaf) { was_grown_[leaf].store(true, std::memory_order_relaxed); }
   bool was_grown(uint32_t leaf) const { return was_grown_[leaf].load(std::memory_order_relaxed); }
   /// Returns how often grow() has grown a leaf.
