@@ -23,18 +23,19 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key(
         "spacing", &GatherParams::spacing,
         {.unit = "pixels",
-         .help = "Maximum distance between knots along a strand. Knots are points at which light is "
-                 "gathered, and the samples near a knot share its light. A larger distance gives less "
-                 "noise, but blurs shadows along strands. Indirect light is also averaged over neighbouring "
-                 "strands, over about 8 pixels",
+         .help = "Maximum distance between gather points along a strand. Samples near a gather point share "
+                 "the light that arrives there. A larger distance gives less noise, but blurs shadows along "
+                 "strands. Indirect light is also averaged over neighbouring strands, over about 8 pixels",
          .min = 0.25,
          .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,
-          {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
-    s.key(
-        "cells", &GatherParams::cells,
-        {.help = "true: strands so thin that few samples see a knot share light with their neighbours on the "
-                 "skin, over about 2 pixels"});
+          {.unit = "pixels",
+           .help = "Maximum distance between gather points on a skin",
+           .min = 0.25,
+           .max = 64});
+    s.key("cells", &GatherParams::cells,
+          {.help = "true: strands so thin that few samples see a gather point share light with their "
+                   "neighbours on the skin, over about 2 pixels"});
     s.key(
         "min_width", &GatherParams::min_width,
         {.unit = "pixels",
