@@ -90,7 +90,8 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   tile.points.push_back(visible);
 }
 
-/// Evaluates the light at a visible point as if nothing blocked it, and draws the rays that leave the point.
+/// Evaluates the light at a visible point as if nothing blocked it, and samples the rays that leave the
+/// point.
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
                                SampleScratch& thread, VisiblePoint& visible, TileSamples& tile) const {
   const size_t lights = scene_.lights.size();
