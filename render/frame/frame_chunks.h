@@ -78,7 +78,7 @@ class FrameChunks final : public ChunkGrower {
   bool opaque() const;
   /// Returns the count of strands that grow() has made so far. A strand that is grown again counts again.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
-  /// Returns the count of those that had been grown before.
+  /// Returns how many strands of strands_grown() had been grown before.
   int64_t strands_regrown() const { return strands_regrown_.load(std::memory_order_relaxed); }
 
  private:

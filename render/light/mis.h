@@ -4,7 +4,7 @@
 namespace pelage {
 
 /// Returns the weight, by the balance heuristic, of a sample that one technique takes with density `pdf` and
-/// another with density `other`. Both densities are per solid angle; each technique takes one
+/// another would take with density `other`. Both densities are per solid angle; each technique takes one
 /// sample [Veach97, section 9.2.2]. Returns 0 when `pdf` is 0.
 inline float balance_weight(float pdf, float other) { return pdf > 0 ? pdf / (pdf + other) : 0.0f; }
 
