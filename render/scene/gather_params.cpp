@@ -36,20 +36,21 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key("cells", &GatherParams::cells,
           {.help = "true: strands so thin that few samples see a gather point share light with their "
                    "neighbours on the skin, over about 2 pixels"});
-    s.key(
-        "min_width", &GatherParams::min_width,
-        {.unit = "pixels",
-         .help = "The camera sees thinner strands with this width, and as much more transparent, so that the "
-                 "picture is the same on average but less noisy. Strands that level of detail has widened "
-                 "keep their width. Needs `visibility: raster`",
-         .min = 0,
-         .max = 4});
+    s.key("min_width", &GatherParams::min_width,
+          {.unit = "pixels",
+           .help =
+               "The camera sees thinner strands at this width and more transparent, so that the picture is "
+               "the same on average. This reduces the noise of strands thinner than a twentieth of a pixel, "
+               "and increases the noise of dense fur. Strands that level of detail has widened keep their "
+               "width. Needs `visibility: raster`",
+           .min = 0,
+           .max = 4});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "
                "lights that would add much "
                "to the brightness of the pixel if nothing blocked them, and whose visibility is uncertain. A "
-               "sample sends at most one ray to each light",
+               "sample sends at most one ray to each light, or two if there is only one light",
            .min = 0.05,
            .max = 16});
     s.key("paths", &GatherParams::paths,
