@@ -45,7 +45,7 @@ struct PathState {
 /// It may have a third:
 ///   arrive(path, met)
 ///       Receives each vertex after the first, before its light is found. `met`: the geometry that was hit.
-///       Returns whether the path goes on from there.
+///       Returns whether the path continues from there.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
