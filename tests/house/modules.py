@@ -54,7 +54,7 @@ def table_rows(text, heading):
 def read_modules(text):
     modules = {}
     for level, folder, _, may_include, libraries in table_rows(text, "## Modules"):
-        module = Module(re.fullmatch(r"`([a-z]+)/`", folder).group(1), int(level))
+        module = Module(re.fullmatch(r"`([a-z]+(?:/[a-z]+)?)/`", folder).group(1), int(level))
         module.may_include = may_include.split() if may_include not in ("–", "all") else may_include
         for entry in libraries.split(",") if libraries != "–" else []:
             name, _, below = entry.strip().partition(" in ")
@@ -65,6 +65,13 @@ def read_modules(text):
             module.may_include = modules.keys() - {module.name}
         module.may_include = set(module.may_include) - {"–"}
     return modules
+
+
+def module_of(path, modules):
+    """Name of the module that a path belongs to; a folder of a module can be a module of its own, with its own level."""
+    folders = path.split("/")[:-1]
+    return next((name for count in range(len(folders), 0, -1) if (name := "/".join(folders[:count])) in modules),
+                path.split("/")[0])
 
 
 def read_shared_libraries(text):
@@ -84,7 +91,7 @@ def read_inner_layers(text):
 
 def inner_violations(root, text):
     """One line for each include between two folders of a module that the table of inner layers does not allow."""
-    layers = read_inner_layers(text)
+    layers, modules = read_inner_layers(text), read_modules(text)
     order = list(layers)
     found = []
     for folder, may_include in layers.items():
@@ -99,7 +106,7 @@ def inner_violations(root, text):
                 continue
             inside = path.relative_to(root).as_posix()
             own = "/".join(inside.split("/")[:2])
-            if inside.count("/") == 1:  # in the module itself
+            if inside.count("/") == 1 or module_of(inside, modules) != module:  # in the module itself, or in another
                 continue
             if own not in layers:
                 found.append(f"{inside}: {own} is not in the table of inner layers")
@@ -134,13 +141,15 @@ def violations(root, text):
             if path.suffix not in (".h", ".cpp", ".inl"):
                 continue
             inside = path.relative_to(root).as_posix()
+            if module_of(inside, modules) != module.name:
+                continue
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
                 if not match:
                     continue
                 quoted, header = match.group(1) == '"', match.group(2)
                 if quoted:
-                    other = header.split("/")[0]
+                    other = module_of(header, modules)
                     allowed = "/" in header and (other == module.name or other in module.may_include)
                 else:
                     library = library_of(header)

@@ -13,7 +13,8 @@ TABLES = """
 | 0 | `base/` | - | – | TBB, xxHash |
 | 1 | `geom/` | - | base | – |
 | 2 | `render/` | - | base geom | Embree in `accel/` |
-| 3 | `cli/` | - | all | CLI11 |
+| 3 | `geom/host/` | - | base geom render | – |
+| 4 | `cli/` | - | all | CLI11 |
 
 ### Shared libraries
 | library | modules |
@@ -53,6 +54,14 @@ class PlantedIncludes(unittest.TestCase):
         self.assert_refused("geom/io/a.cpp", '"render/b.h"')
         self.assert_refused("geom/a.cpp", '"tests/b.h"')
         self.assert_refused("geom/a.cpp", '"a.h"')
+
+    def test_a_folder_with_a_level_of_its_own(self):
+        self.assert_allowed("geom/host/a.h", '"render/b.h"')
+        self.assert_allowed("geom/host/a.h", '"geom/host/b.h"')
+        self.assert_allowed("geom/host/a.h", '"geom/io/b.h"')
+        self.assert_allowed("cli/a.h", '"geom/host/b.h"')
+        self.assert_refused("geom/a.h", '"geom/host/b.h"')
+        self.assert_refused("render/a.h", '"geom/host/b.h"')
 
     def test_libraries(self):
         self.assert_allowed("base/a.cpp", "<tbb/parallel_for.h>")
