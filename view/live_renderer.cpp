@@ -222,7 +222,6 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     params.integrator = Integrator::kPath;
     params.samples = 1;
     params.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
-    params.learned_visibility = LearnedUse::kOff;
     image.filter_samples = FilterSamples::kDrawn;
     is_preview_ = true;
     try {

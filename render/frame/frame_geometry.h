@@ -41,7 +41,7 @@ class FrameGeometry {
   const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Returns the balls inside the skins of the scene. Computes them at the first call; not thread-safe.
   /// Throws the errors of SkinShadows.
-  SkinShadows& shadows(const RenderScene& scene, const Job& job) {
+  const SkinShadows& shadows(const RenderScene& scene, const Job& job) {
     if (!shadows_) shadows_ = std::make_unique<SkinShadows>(scene, job);
     return *shadows_;
   }

@@ -46,15 +46,17 @@ class ArrivalGuess {
   void begin(size_t lights);
   /// Adds a ray. `luminance`: what arrives along the ray if nothing blocks it.
   void add(uint32_t zone, size_t light, uint32_t range, double luminance, float through);
-  /// Updates fraction() and deviation() with the rays added so far.
-  void learn();
+  /// Updates fraction() and deviation() with the rays added so far. `rejects`: from now on, fraction and
+  /// deviation are 0 where all rays of a zone, light and range were blocked. Then no further ray is chosen
+  /// there, which loses light ["Rendering Fur in Life of Pi", adaptive importance sampling; Neulander11].
+  void learn(bool rejects = false);
 
   /// Returns the guess of the fraction that arrives, in [0, 1]. 0 before learn().
   float fraction(uint32_t zone, size_t light, uint32_t range) const {
     return at(zone, light, range).fraction;
   }
   /// Returns a guess of the standard deviation of the fraction that one ray transmits; 1 before learn().
-  /// Never 0, so that every ray has a chance.
+  /// Never 0, so that every ray has a chance, unless learn() rejects.
   float deviation(uint32_t zone, size_t light, uint32_t range) const {
     return at(zone, light, range).deviation;
   }

@@ -23,7 +23,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      shading_(scene, options.known),
+      shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),

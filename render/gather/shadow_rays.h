@@ -53,7 +53,6 @@ class ShadowRays {
   double add_unoccluded(const TileSamples& samples, size_t first, Scratch& scratch,
                         LightSharing& light) const;
   double weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess, Scratch& scratch) const;
-  float trace_ray(const TileSamples& samples, const LightRay& ray, SampleScratch& thread) const;
   void finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const;
 
   const RenderScene& scene_;

@@ -60,7 +60,6 @@ struct LightRay {
   /// candidate only.
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
-  float modelled = -1;  ///< ScatterPoint::modelled_light(); negative: the ray must be traced
 };
 
 /// The camera samples of a tile, with the points and lights that they see. Used by one thread at a time.

@@ -173,7 +173,6 @@ void VisiblePoints::choose_targets(const ScatterPoint& point, float u, Scratch& 
       for (int g = 0; g < kLobeGroups; ++g)
         ray.lobes[g] = candidate.lobes[g] * (ray.unoccluded / candidate.mass);
       ray.ray = {point.start(candidate.direction), candidate.direction, candidate.far};
-      ray.modelled = point.modelled_light(candidate.direction, candidate.far).value_or(-1.0f);
     }
   }
 }

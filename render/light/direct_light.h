@@ -24,13 +24,11 @@ enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
-  uint32_t stratum = 0;  ///< of LearnedVisibility
-  float factor = 1;      ///< LearnedVisibility::factor() of the light and stratum
-  V3f direction{0};      ///< unit, from the scatter point
-  float distance = 0;    ///< from the scatter point
-  FibreValue value;      ///< scattering of light from this direction
-  Rgb arriving{0};       ///< radiance * weight of the technique / density of one point
-  float luminance = 0;   ///< of the light that is scattered to the viewer: value.total() * arriving
+  V3f direction{0};     ///< unit, from the scatter point
+  float distance = 0;   ///< from the scatter point
+  FibreValue value;     ///< scattering of light from this direction
+  Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
+  float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
 };
 
 /// Memory of one thread, reused for each scatter point.
@@ -156,8 +154,6 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
   }
   LightPoint result;
   result.light = choice.light;
-  result.stratum = LearnedVisibility::stratum(place);
-  result.factor = point.learned().factor(choice.light, result.stratum);
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
@@ -173,17 +169,15 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 
 template <class Shadow>
 void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch, const Shadow& shadow) const {
-  // Points are chosen in proportion to the unoccluded light that they contribute, times the learned factor.
-  // The step makes up for the factors: fewer rays would add more noise than they save time.
-  double likely = 0;
-  for (const LightPoint& point : scratch.points) likely += double{point.luminance * point.factor};
-  if (!(likely > 0)) return;
-  SystematicChoice choice(likely / double{rays}, u);
+  // Points are chosen in proportion to the unoccluded light that they contribute.
+  double all = 0;
+  for (const LightPoint& point : scratch.points) all += double{point.luminance};
+  if (!(all > 0)) return;
+  SystematicChoice choice(all / double{rays}, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
   for (const LightPoint& point : scratch.points) {
-    const float mass = point.luminance * point.factor;
-    const uint32_t chosen = choice.times(mass);
-    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (mass * count)));
+    const uint32_t chosen = choice.times(point.luminance);
+    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (point.luminance * count)));
   }
 }
 

@@ -120,14 +120,6 @@ class PathWalk {
     if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
     return sample_lobes(point, path, lights, scratch, sink);
   }
-  /// Returns the fraction of light that arrives along a shadow ray from `point`. Traces the ray unless the
-  /// coat has a shell.
-  float light_through(const ScatterPoint& point, const Ray& ray, SampleScratch& scratch) const {
-    const std::optional<float> modelled = point.modelled_light(ray.direction, ray.far);
-    if (!modelled) return scratch.light_through(accel_, ray);
-    ++scratch.costs.occlusion.rays_modelled;
-    return *modelled;
-  }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
   void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
@@ -174,14 +166,11 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
   if (lights.points.empty()) return;
   seek(path, kLightChoice);
-  bool is_traced = false;
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
-    is_traced = true;
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
-    sink.shadow(path, to, factor, light_through(point, ray, scratch));
+    sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
-  scratch.costs.occlusion.rays_ended += is_traced ? 0 : 1;
 }
 
 /// Reports the lights that a ray sampled from the lobes of the current vertex `point` hits before `distance`.
@@ -199,7 +188,7 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                           shadow.far = hit.distance * DirectLight::kJustBefore;
                           const bool proved = point.is_shadowed(shadow.direction, shadow.far);
                           scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
-                          through = proved ? 0 : light_through(point, shadow, scratch);
+                          through = proved ? 0 : scratch.light_through(accel_, shadow);
                         }
                         sink.met(path, light, hit.radiance, weight, through);
                       });

@@ -53,6 +53,13 @@ const Schema<GatherParams>& GatherParams::schema() {
                "sample sends at most one ray to each light, or two if there is only one light",
            .min = 0.05,
            .max = 16});
+    s.key(
+        "reject", &GatherParams::reject,
+        {.help =
+             "true: the rule of the slides \"Rendering Fur in Life of Pi\", for comparison only. Directions "
+             "from which none of the first rays of a tile arrived get no further rays. Light that the "
+             "first rays miss is lost, so the picture is too dark; `pelage measure samplers` shows by "
+             "how much"});
     s.key("paths", &GatherParams::paths,
           {.help = "Indirect paths per camera sample that sees a strand or skin; dark surfaces get fewer",
            .min = 0.05,
