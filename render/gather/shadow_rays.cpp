@@ -97,7 +97,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   for (uint32_t knot = 0; knot < knots; ++knot) {
     const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
     if (items.empty()) continue;
-    // Knots choose independently: which rays one knot traces says nothing about the choice of another.
+    // Gather points choose independently: the rays of one say nothing about the rays of another.
     const uint64_t random = hash64(random_use("shadow rays"), samples.random_key, first > 0 ? 1 : 0, knot);
     SystematicChoice choice(mass / rays, unit_float(random));
     for (const uint32_t index : items) {
@@ -122,7 +122,8 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   return true;
 }
 
-/// Learns from the pilot's rays, and adds their light. A knot's guess must not depend on the knot's own rays.
+/// Learns from the pilot's rays, and adds their light. The guess for a gather point must not depend on its
+/// own rays.
 void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const {
   ArrivalGuess& guess = light.guess();
   const size_t lights = scene_.lights.size();

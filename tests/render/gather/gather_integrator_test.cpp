@@ -78,7 +78,7 @@ TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
-  // One light is an environment: 32 bytes per drawn point (DrawnLights::bytes()).
+  // One light is an environment: 32 bytes per stored point (DrawnLights::bytes()).
   const size_t most = 3 * tile + 32 * size_t{DrawnLights::kSide} * DrawnLights::kSide;
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(most));
   EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
