@@ -52,14 +52,6 @@ void check_parts(Experiment experiment, const std::vector<std::string>& parts) {
 
 void add_experiment_flags(CLI::App& measure, Options& options) {
   measure
-      .add_option("--characters", options.characters,
-                  "lod: number of full-detail characters in each run; the cost of the whole crowd is "
-                  "extrapolated from these runs (default: 10,20,40)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N,N");
-  measure
       .add_option(
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "

@@ -78,7 +78,7 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
     case Experiment::kBounces:
       return measure_bounces(scene, options.samples.back(), setup, display);
     case Experiment::kLod:
-      return measure_lod(scene, options.characters, options.parts, setup, display);
+      return measure_lod(scene, options.parts, setup, display);
   }
   return {};
 }

@@ -39,11 +39,9 @@ class Composer {
 
   void add_all() {
     const std::vector<FrameCharacter> drawn = frame_characters(scene_, assets_);
-    const std::vector<bool> full_detail =
-        full_detail_characters(drawn, scene_.render.lod.full_detail, lod_view_.open.position, frame_);
-    for (size_t i = 0; i < drawn.size(); ++i) {
+    for (const FrameCharacter& character : drawn) {
       job_.check_stop();
-      add(drawn[i], scene_.render.lod.enabled && !full_detail[i]);
+      add(character, scene_.render.lod.enabled);
     }
     world_.poses = pose_hasher_.digest();
   }
@@ -67,7 +65,6 @@ class Composer {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
-    if (!scene_.render.shared_topology) pose.topology = unshared_topology(part.skin.name);
     for (const auto& groom : part.grooms.items) {
       if (assets_.grooms.at(groom.name)->needs_closest_point())
         pose.push_out_view = world_.scene.camera.view();
@@ -114,15 +111,6 @@ class Composer {
     distant.from = found->from / std::sqrt(fur->detail()->max_share() / found->lod.fraction());
     distant.procedurals.push_back(std::move(fur));
     return distant;
-  }
-
-  /// Used to measure the savings of shared topologies.
-  std::shared_ptr<const SurfaceTopology> unshared_topology(const std::string& skin) {
-    const SkinParams& params = scene_.skins.find(skin)->value;
-    auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
-                                            params.mesh.path.string());
-    charge(topology->bytes());
-    return topology;
   }
 
   void count(const Groom& groom, const PosedCharacterSkin& skin) {

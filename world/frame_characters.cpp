@@ -96,23 +96,6 @@ bool has_coat(const FrameCharacter& character) {
                      [](const PartParams& part) { return !part.grooms.items.empty(); });
 }
 
-std::vector<bool> full_detail_characters(const std::vector<FrameCharacter>& characters, int64_t count,
-                                         const V3f& eye, double frame) {
-  std::vector<std::pair<float, size_t>> by_distance;
-  for (size_t i = 0; i < characters.size() && count > 0; ++i) {
-    if (!has_coat(characters[i])) continue;
-    const V3f origin = to_world(characters[i], frame).translation();
-    by_distance.emplace_back((origin - eye).length(), i);
-  }
-  std::sort(by_distance.begin(), by_distance.end());
-  std::vector<bool> full_detail(characters.size(), false);
-  const auto all = static_cast<int64_t>(by_distance.size());
-  count = std::min(count, all);
-  for (int64_t n = 0; n < count; ++n)
-    full_detail[by_distance[static_cast<size_t>((2 * n + 1) * all / (2 * count))].second] = true;
-  return full_detail;
-}
-
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame) {
   CharacterPose pose;

@@ -32,13 +32,6 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
 /// Returns whether the character has any groom.
 bool has_coat(const FrameCharacter& character);
 
-/// Selects `count` of the characters with a coat to be rendered without level of detail; all of them if there
-/// are no more than `count`. Returns one value per character: true if it is selected. Sorts the characters
-/// with a coat by their distance from `eye` at `frame`, divides the sorted list into `count` equal groups,
-/// and selects the middle character of each group. Thus the selection contains near and far characters.
-std::vector<bool> full_detail_characters(const std::vector<FrameCharacter>& characters, int64_t count,
-                                         const V3f& eye, double frame);
-
 /// Returns the posed cages of one part of a character. If the part is animated and the shutter is open for
 /// some time, these are one cage per motion key of the camera, and two cages at frame - 1/2 and frame + 1/2.
 /// Otherwise there is one cage.

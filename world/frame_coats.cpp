@@ -20,8 +20,6 @@ class FramePoser {
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
-  const V3f& eye() const { return lod_view_.open.position; }
-
   void add(const FrameCharacter& character, bool reduced, FrameParts& parts) {
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, parts);
@@ -97,13 +95,10 @@ FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, doubl
                       const std::set<std::string>& only) {
   const std::vector<FrameCharacter> drawn = frame_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
-  const std::vector<bool> full =
-      full_detail_characters(drawn, scene.render.lod.full_detail, poser.eye(), frame);
   FrameParts parts;
-  for (size_t i = 0; i < drawn.size(); ++i) {
+  for (const FrameCharacter& character : drawn) {
     job.check_stop();
-    if (only.empty() || only.contains(drawn[i].name))
-      poser.add(drawn[i], scene.render.lod.enabled && !full[i], parts);
+    if (only.empty() || only.contains(character.name)) poser.add(character, scene.render.lod.enabled, parts);
   }
   return parts;
 }

@@ -54,11 +54,11 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
                          Progress& progress);
 
 /// Compares reduced detail with full detail. `parts` holds names from kLodParts; empty: all parts.
-///   crowd   cost of a whole crowd in full detail, extrapolated from `full_detail` characters
+///   crowd   cost of a whole crowd
 ///   detail  strands, working set, time and error by criterion, distance, blur and focus
 ///   wedge   contact sheet: one row per distance, one column per quality
 ///   dolly   change of the picture while the LOD camera moves
-Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
-                     const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);
+Measured measure_lod(const SceneDescription& scene, const std::vector<std::string>& parts,
+                     const MeasureSetup& setup, Progress& progress);
 
 }  // namespace pelage

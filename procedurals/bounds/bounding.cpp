@@ -8,20 +8,13 @@
 namespace pelage {
 namespace {
 
-Box3f scaled(const Box3f& box, float factor) {
-  if (box.isEmpty()) return box;
-  const V3f middle = box.center(), half = 0.5f * factor * box.size();
-  return {middle - half, middle + half};
-}
-
 /// Boxes that need no strands.
 std::vector<ChunkBounds> stated_bounds(const BoundingOptions& options,
                                        std::span<const Procedural* const> chunks, const Job& job) {
   std::vector<ChunkBounds> bounds(chunks.size());
   job.workers.for_each(chunks.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
-      const Box3f box = chunks[i]->bound(bound_span(options.strategy));
-      bounds[i].boxes = {options.strategy == BoundingStrategy::kUser ? scaled(box, options.factor) : box};
+      bounds[i].boxes = {chunks[i]->bound(bound_span(options.strategy))};
       job.progress.advance(1);
     }
   });

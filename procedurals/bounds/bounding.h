@@ -16,7 +16,6 @@ class MemoryLedger;
 
 struct BoundingOptions {
   BoundingStrategy strategy = BoundingStrategy::kExact;
-  float factor = 1;  ///< factor of kUser by which boxes are scaled about their centres
   /// Whether to return one box per chunk instead of the boxes of its parts. This saves memory, because the
   /// boxes of parts are most of the data. Side files contain the parts in any case.
   bool in_one_part = false;

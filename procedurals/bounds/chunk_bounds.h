@@ -12,9 +12,7 @@ namespace pelage {
 
 /// How the boxes of a chunk are determined before the chunk is grown for use (`render.bounds`).
 enum class BoundingStrategy {
-  kNone,  ///< no boxes, because all chunks are grown at the start
-  kUser,  ///< the box of kConservative, scaled about its centre by a factor that the user chooses; hair
-          ///< outside the scaled box is lost
+  kNone,          ///< no boxes, because all chunks are grown at the start
   kConservative,  ///< computed from the roots, the longest strand and the reach of each operator
   kExact,  ///< the chunk is grown, measured and discarded; boxes are valid for the whole frame interval
   kExactShutter,  ///< like kExact, but boxes are valid only while the shutter is open
@@ -22,7 +20,7 @@ enum class BoundingStrategy {
 };
 template <>
 struct EnumNames<BoundingStrategy> {
-  static constexpr const char* names[] = {"none", "user", "conservative", "exact", "exact-shutter", "linear"};
+  static constexpr const char* names[] = {"none", "conservative", "exact", "exact-shutter", "linear"};
 };
 
 /// Boxes of one chunk. A chunk has one or more parts; a part is a group of neighbouring segments, or the

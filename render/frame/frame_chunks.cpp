@@ -271,8 +271,6 @@ std::optional<ContentHash> FrameChunks::content(uint32_t leaf) const {
   ContentHasher hasher;
   hasher.add("chunk of fur").add(*strands).add(ValueReader<Field>::print(fibre.opacity));
   hasher.add(scale.width).add(scale.anchor.x).add(scale.anchor.y).add(scale.anchor.z).add(scale.widest);
-  // The boxes of all other strategies contain the leaf.
-  if (render.bounds == BoundingStrategy::kUser) hasher.add(render.bounds).add(render.bounds_factor);
   hasher.add(render.compact_attributes);
   for (const std::string& attribute : fibre.color.attribute_names())
     hasher.add(attribute);  // checked in grow()
@@ -283,7 +281,6 @@ std::vector<ChunkBounds> FrameChunks::leaf_bounds(const std::vector<const Proced
                                                   const Job& job, BoundingCounts& counts) const {
   BoundingOptions options;
   options.strategy = bounds_;
-  options.factor = scene_.render.bounds_factor;
   options.in_one_part = in_fur_trees();
   std::optional<Workers> fewer;
   MemoryCharge blocks;

@@ -27,12 +27,8 @@ const Schema<LodParams>& LodParams::schema() {
         "camera", &LodParams::camera,
         {.help = "Camera that decides the level of detail by its view, shutter and lens. Use one camera for "
                  "both eyes of a stereo pair, or for all shots that show the same hair"});
-    s.key("full_detail_characters", &LodParams::full_detail,
-          {.help = "Number of furred characters that keep every strand. Pelage sorts all furred characters "
-                   "by distance from the level-of-detail camera and selects this many at even intervals. "
-                   "Use it to measure what level of detail saves",
-           .min = 0,
-           .old_names = {"in_full"}});
+    for (const char* name : {"full_detail_characters", "in_full"})
+      s.remove({name, "use `enabled: false` for full detail", "0"});
     add_simplification_keys(s);
     return s;
   }();
@@ -141,22 +137,16 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key(
         "bounds", &RenderParams::bounds,
         {.help = "How Pelage finds the bounding boxes of chunks. Rays are tested against these boxes before "
-                 "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
-                 "boxes scaled "
-                 "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
+                 "strands grow. `none`: no boxes, all strands grow before rendering; `conservative`: boxes "
+                 "from the skin, strand lengths and operators; "
                  "`exact`: strands grow once beforehand and are measured over the whole time from half a "
                  "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
                  "only while the shutter is open; `linear`: "
-                 "as `exact-shutter`, with boxes that move with the strands"});
-    s.key("bounds_factor", &RenderParams::bounds_factor,
-          {.help = "Size of the boxes of `bounds: user` relative to the conservative ones. Below 1, strands "
-                   "may be lost",
-           .min = 0.01,
-           .max = 100});
+                 "as `exact-shutter`, with boxes that move with the strands",
+         .removed = {{"user", "boxes that it made smaller could lose strands; use conservative or exact"}}});
+    s.remove({"bounds_factor", "it belonged to `bounds: user`, which could lose strands", "1"});
     s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "on"});
-    s.key("shared_topology", &RenderParams::shared_topology,
-          {.help = "Characters with the same cage share its refinement and patches. Set it to false only to "
-                   "measure the saving"});
+    s.remove({"shared_topology", "characters with the same cage always share its refinement", "true"});
     return s;
   }();
   return table;

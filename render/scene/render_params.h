@@ -60,7 +60,6 @@ struct ValueReader<LodCamera> {
 struct LodParams : SimplificationParams {
   bool enabled = true;
   LodCamera camera;
-  int64_t full_detail = 0;  ///< count of characters that keep all their hair
   static const Schema<LodParams>& schema();
 };
 
@@ -90,9 +89,7 @@ struct RenderParams {
   bool occlusion_detail = false;  ///< secondary rays see fewer, wider strands from some distance on
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
-  float bounds_factor = 1;  ///< scale of boxes with BoundingStrategy::kUser
   LodParams lod;
-  bool shared_topology = true;  ///< characters with the same cage share its refinement and patches
 
   /// Whether the gather integrator draws what the camera sees, instead of tracing camera rays.
   bool draws_visible() const {

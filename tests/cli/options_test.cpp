@@ -204,12 +204,10 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(problem({"measure", "scaling", "s"}),
             "experiment 'scaling' does not exist yet; choose one of bounces, bounds, growth, lod, "
             "residency, samplers and shading");
-  const Options lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
-  EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
+  const Options lod = parsed({"measure", "lod", "s", "--parts", "crowd,dolly"});
   EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
   EXPECT_EQ(problem({"measure", "lod", "s", "--parts", "crowds"}),
             "--parts: unknown part 'crowds'; did you mean 'crowd'?");
-  EXPECT_NE(problem({"measure", "lod", "s", "--characters", "0"}), "");
   const Options shading = parsed({"measure", "shading", "s", "--samples", "64,2,64", "--reference-samples",
                                   "8", "--parts", "gather,reuse"});
   EXPECT_EQ(shading.experiment, Experiment::kShading);

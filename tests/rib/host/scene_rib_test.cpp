@@ -170,12 +170,6 @@ TEST_F(SceneRib, BlocksOfThePictureTravelAsOptions) {
   EXPECT_EQ(render, "{samples: 6, bounces: 2, lod: {enabled: false}}");
 }
 
-// A character that keeps all its hair must not be thinned out by `detail`.
-TEST_F(SceneRib, ProceduralsOfFullDetailCharactersNameTheCameraToo) {
-  const auto rib = requests({}, {{"render.lod", "{enabled: true, full_detail_characters: 9}"}});
-  EXPECT_NE(find(rib, "Procedural").arguments[1].texts[1].find(" camera=scene "), std::string::npos);
-}
-
 TEST_F(SceneRib, ProceduralsNameTheSceneAndTheirBoxes) {
   const auto rib = requests({}, {{"render.lod.enabled", "true"}, {"frames", "2"}});
   std::vector<const RibRequest*> procedurals;
