@@ -91,6 +91,22 @@ std::string library_identity(std::string_view name) {
   return wanted.id;
 }
 
+std::string arithmetic_identity() {
+  std::string identity = __VERSION__;
+#ifdef __OPTIMIZE__
+  identity += " optimised";  // the compiler computes functions of constants itself
+#endif
+  // Only libraries that the program starts with: others are loaded with the module that reads textures, and
+  // the identity must not depend on whether one has been read.
+  for (const char* library : {"libm.so", "libosdCPU.so"}) identity += " " + library_identity(library);
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("fma")) identity += " fma";
+  if (__builtin_cpu_supports("avx2")) identity += " avx2";
+  if (__builtin_cpu_supports("avx512f")) identity += " avx512f";
+#endif
+  return identity;
+}
+
 std::string program_identity() {
   Own own;
   ::dl_iterate_phdr(look_for_own, &own);

@@ -12,6 +12,11 @@ namespace pelage {
 /// cannot be read.
 std::string program_identity();
 
+/// Returns a text that identifies how this program computes with numbers on this machine: its compiler, the
+/// libraries of functions and of subdivision, and the instruction sets among which they choose. The same code
+/// may give other results, if only in the last digit, when this text differs.
+std::string arithmetic_identity();
+
 /// Returns the build id of the first loaded shared library whose file name contains `name`. Returns "none"
 /// when there is no such library, "unknown" when the library has no build id.
 std::string library_identity(std::string_view name);

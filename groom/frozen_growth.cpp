@@ -13,6 +13,11 @@ namespace pelage {
 namespace {
 
 constexpr const char* kKind = "layer";
+constexpr uint32_t kFormat = 1;
+
+ContentHash layer_key(const ContentHash& stage, int leaf_strands) {
+  return ContentHasher().add(in_leaves(stage, leaf_strands)).add(kFormat).digest();
+}
 
 /// Properties of strands after quantisation, whose error applies to every point (groom/frozen_leaf.h).
 StrandReach quantised(StrandReach reach) {
@@ -86,7 +91,7 @@ ContentHash in_leaves(const ContentHash& hash, int leaf_strands) {
 }
 
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands) {
-  return store.file(kKind, in_leaves(stage, leaf_strands));
+  return store.file(kKind, layer_key(stage, leaf_strands));
 }
 
 bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const {
@@ -114,7 +119,7 @@ void FrozenGrowth::charge_grown(size_t done, Result& result) const {
 
 FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_strands) const {
   const size_t leaf_count = source.follicles().leaves().size();
-  const auto key = [&](size_t i) { return in_leaves(identity.of_operator(i).hash, leaf_strands); };
+  const auto key = [&](size_t i) { return layer_key(identity.of_operator(i).hash, leaf_strands); };
 
   Result result;
   for (size_t leaf = 0; leaf < leaf_count; ++leaf) result.reaches.push_back(source.reach(leaf));

@@ -77,7 +77,7 @@ class Groom {
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
-  /// Hash of everything that shapes the strands, including live operators and the version of the program.
+  /// Hash of everything that shapes the strands, including live operators and the versions of the code.
   /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;
   /// Store for data that is derived from the groom. Null for a groom without a cache.

@@ -12,6 +12,11 @@ TEST(ProgramIdentity, IsThereAndStays) {
   EXPECT_EQ(program_identity(), identity);
 }
 
+TEST(ProgramIdentity, ArithmeticIdentityNamesTheLibraryOfFunctions) {
+  EXPECT_NE(arithmetic_identity().find(library_identity("libm.so")), std::string::npos);
+  EXPECT_EQ(arithmetic_identity(), arithmetic_identity());
+}
+
 TEST(ProgramIdentity, LibrariesAreFoundByAPartOfTheirName) {
   const std::string library = library_identity("libstdc++");
   EXPECT_NE(library, "none");
