@@ -12,6 +12,10 @@
 #include "base/hash.h"
 #include "base/mapped_file.h"
 
+#if defined(__x86_64__) && defined(__GLIBC__)
+#include <sys/platform/x86.h>
+#endif
+
 namespace pelage {
 namespace {
 
@@ -85,6 +89,17 @@ int look_for(dl_phdr_info* object, size_t, void* data) {
 
 }  // namespace
 
+const char* instruction_set() {
+#if defined(__x86_64__) && defined(__GLIBC__)
+  // What the library uses, rather than what the processor has.
+  return CPU_FEATURE_ACTIVE(FMA) && CPU_FEATURE_ACTIVE(AVX2) ? "x86-64 FMA" : "x86-64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "unknown";
+#endif
+}
+
 std::string library_identity(std::string_view name) {
   Wanted wanted{name};
   ::dl_iterate_phdr(look_for, &wanted);
@@ -99,12 +114,7 @@ std::string arithmetic_identity() {
   // Only libraries that the program starts with: others are loaded with the module that reads textures, and
   // the identity must not depend on whether one has been read.
   for (const char* library : {"libm.so", "libosdCPU.so"}) identity += " " + library_identity(library);
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("fma")) identity += " fma";
-  if (__builtin_cpu_supports("avx2")) identity += " avx2";
-  if (__builtin_cpu_supports("avx512f")) identity += " avx512f";
-#endif
-  return identity;
+  return identity + " " + instruction_set();
 }
 
 std::string program_identity() {

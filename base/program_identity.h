@@ -6,6 +6,13 @@
 
 namespace pelage {
 
+/// Returns the name of the instructions that the C library uses for sines, exponentials and other functions:
+/// "x86-64", or "x86-64 FMA" on processors that multiply and add with one rounding. Pictures that were made
+/// with different instructions may differ in the last digit. All other code gives the same bits with all
+/// instruction sets. On x86-64, the environment variable GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA switches
+/// FMA off.
+const char* instruction_set();
+
 /// Returns a text that identifies this build of the program or, if this code is in a shared library that
 /// another program has loaded, of this library. Results of different builds may differ in the last digit or
 /// more. The text is the linker's build id or, if there is none, a hash of the file; "unknown" when this file

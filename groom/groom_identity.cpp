@@ -2,7 +2,7 @@
 #include "groom/groom_identity.h"
 
 #include "base/error.h"
-#include "base/file_hash.h"
+#include "base/file.h"
 #include "base/program_identity.h"
 #include "geom/limit_surface.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "base/program_identity.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "render/fibre/fibre_tracer.h"
 
 namespace pelage {
@@ -21,7 +21,14 @@ static_assert(std::is_trivially_copyable_v<Node> && sizeof(Node) % sizeof(float)
 
 ContentHash key_of(const YanOptics& o, int paths) {
   ContentHasher hasher;
-  hasher.add(MedullaTables::kVersion).add(arithmetic_identity()).add(paths).add(o.eta).add(o.kappa).add(o.sigma_ms).add(o.g).add(o.layers);
+  hasher.add(MedullaTables::kVersion)
+      .add(arithmetic_identity())
+      .add(paths)
+      .add(o.eta)
+      .add(o.kappa)
+      .add(o.sigma_ms)
+      .add(o.g)
+      .add(o.layers);
   return hasher.digest();
 }
 
