@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/schema.h"
-#include "groom/operator_of.h"
+#include "groom/operator.h"
 #include "groom/strand_batch.h"
 #include "image/field.h"
 

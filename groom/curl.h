@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator_of.h"
+#include "groom/operator.h"
 #include "image/field.h"
 
 namespace pelage {

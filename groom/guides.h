@@ -8,7 +8,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "geom/strands.h"
-#include "groom/operator_of.h"
+#include "groom/operator.h"
 #include "groom/root_grid.h"
 #include "image/field.h"
 

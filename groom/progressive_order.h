@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "groom/candidate_supply.h"
+#include "groom/follicle_candidates.h"
 
 namespace pelage {
 
