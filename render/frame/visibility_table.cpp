@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/hash.h"
-#include "lod/size.h"
+#include "lod/lod_view.h"
 
 namespace pelage {
 namespace {
