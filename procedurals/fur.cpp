@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "geom/strand_merge.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "procedurals/thinned_fur.h"
 
 namespace pelage {
@@ -133,11 +133,7 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  record.key = ContentHasher()
-                   .add(groom_->content_hash())
-                   .add(skin_->hash())
-                   .add(skin_->length())
-                   .digest();
+  record.key = ContentHasher().add(groom_->content_hash()).add(skin_->hash()).add(skin_->length()).digest();
   record.index = leaf_;
   record.count = groom_->follicles().leaves().size();
   return record;

@@ -5,7 +5,7 @@
 
 #include "geom/strand_merge.h"
 #include "lod/fewer_points.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 
 namespace pelage {
 

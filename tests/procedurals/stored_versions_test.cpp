@@ -2,11 +2,11 @@
 // Boxes and thinned coats are those recorded with their versions.
 #include <gtest/gtest.h>
 
-#include "groom/groom_identity.h"
-#include "procedurals/bounds_file.h"
-#include "procedurals/coat_stats.h"
+#include "groom/cache/groom_identity.h"
+#include "procedurals/bounds/bounds_file.h"
+#include "procedurals/bounds/segment_parts.h"
+#include "procedurals/detail/coat_stats.h"
 #include "procedurals/fur.h"
-#include "procedurals/segment_parts.h"
 #include "procedurals/thinned_fur.h"
 #include "tests/geom/random_strands.h"
 #include "tests/procedurals/random_coats.h"
@@ -32,8 +32,8 @@ TEST(StoredVersions, Boxes) {
     result.add("boxes at " + std::to_string(keys), boxes);
     result.add("fine boxes at " + std::to_string(keys), fine);
   }
-  RecordedResults().check("boxes", {{"boxes", kBoundsVersion}}, "kBoundsVersion in procedurals/bounds_file.h",
-                          result);
+  RecordedResults().check("boxes", {{"boxes", kBoundsVersion}},
+                          "kBoundsVersion in procedurals/bounds/bounds_file.h", result);
 }
 
 TEST(StoredVersions, ThinnedCoats) {

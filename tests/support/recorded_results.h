@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "groom/groom_identity.h"
+#include "groom/cache/groom_identity.h"
 
 namespace pelage {
 
