@@ -124,11 +124,10 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   context.owner = owner;
   impl->operator_seed = context.seed;
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
-  impl->hash = ContentHasher()
-                   .add(identity.whole())
-                   .add(params.leaf_size())
-                   .add(params.cache ? params.cache->freeze.name : std::string())
-                   .digest();
+  ContentHasher hasher;
+  hasher.add(identity.whole()).add(params.leaf_size()).add(growth_version::kPose);
+  if (params.cache) hasher.add(params.cache->freeze.name).add(growth_version::kFrozen);
+  impl->hash = hasher.digest();
 
   impl->follicle_identity =
       ContentHasher().add(identity.stages()[GroomIdentity::kStrands].hash).add(params.leaf_size()).digest();

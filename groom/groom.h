@@ -20,7 +20,6 @@ namespace pelage {
 
 class TextureLibrary;
 struct GroomCacheReport;
-struct GrowthStep;
 struct Job;
 
 /// A skin in the pose of a frame. It has one limit surface per motion key, and one tree over the tessellation
@@ -42,6 +41,12 @@ struct KeptStrands {
   std::span<const float> width;       ///< for each strand: factor on its width
   /// For each strand: factor on the deviation of its colour from the mean colour; or empty.
   std::span<const float> contrast;
+};
+
+/// A strand after one step of its growth, as Groom::grow_steps() returns it.
+struct GrowthStep {
+  std::string name;  ///< "follicle" before the first operator, otherwise the name of the operator
+  Strands strand;    ///< one strand with one motion key, in world space; at the last step, as grow() makes it
 };
 
 /// A coat on a skin: follicles and the operators that shape their strands.
@@ -77,7 +82,7 @@ class Groom {
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
-  /// Hash of everything that shapes the strands, including live operators and the version of the program.
+  /// Hash of everything that shapes the strands, including live operators and the versions of the code.
   /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;
   /// Store for data that is derived from the groom. Null for a groom without a cache.
@@ -94,7 +99,7 @@ class Groom {
   /// much as growing every strand up to the last of these.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
-  /// Returns a strand after each step of its growth (groom/growth_steps.h), in the pose of the first motion
+  /// Returns a strand after each step of its growth, in the pose of the first motion
   /// key. Not for a groom with a cache, which keeps only the result of its frozen operators.
   std::vector<GrowthStep> grow_steps(size_t follicle, const PosedSkin& pose) const;
 

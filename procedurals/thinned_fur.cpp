@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "lod/fewer_points.h"
 #include "procedurals/bounds/segment_parts.h"
@@ -111,7 +110,7 @@ size_t ThinnedFurProcedural::temporary_bytes() const {
 /// Hash of all kept strands of the coat, however it is divided.
 ContentHash ThinnedFurProcedural::coat() const {
   return ContentHasher()
-      .add(program_identity())
+      .add(kVersion)
       .add(detail_->groom().content_hash())
       .add(skin_->hash())
       .add(skin_->length())

@@ -11,7 +11,7 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "base/process_usage.h"
-#include "image/exr_writing.h"
+#include "image/exr_file.h"
 #include "procedurals/bounds/bounds_file.h"
 #include "render/accel/resident_chunks.h"
 #include "render/film/film.h"

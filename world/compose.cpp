@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "base/instruction_set.h"
+#include "base/program_identity.h"
 #include "base/version.h"
 #include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"

@@ -30,11 +30,13 @@ std::string shown(const std::string& text) {
 
 // Hashes are meaningless to users.
 bool is_contents(const std::string& key) {
-  return key.starts_with("contents of ") || key == "mesh" || key == "program" || key == "seed";
+  return key.starts_with("contents of ") || key == "mesh" || key == "seed";
 }
 
 std::string change_of(const std::string& key, const std::string* before, const std::string& now) {
-  if (key == "program") return "the version of the program, its libraries or the processor changed";
+  if (key == "version") return "this version of Pelage computes it differently";
+  if (key == "fields") return "this version of Pelage computes maps and noise differently";
+  if (key == "machine") return "the compiler, the libraries or the processor changed";
   if (key == "mesh") return "the rest skin changed";
   if (now == "missing") return key.substr(key.find(' ') + 1 + 3) + " is missing";
   if (is_contents(key)) return key + " changed";
@@ -49,6 +51,7 @@ std::string changes(const GroomStage& before, const GroomStage& now) {
     const auto old = std::find_if(before.inputs.begin(), before.inputs.end(),
                                   [&, &name = key](const auto& input) { return input.first == name; });
     if (old == before.inputs.end()) {
+      if (key == "machine") continue;  // caches of early versions do not state it
       add(change_of(key, nullptr, value));
     } else if (old->second != value) {
       add(change_of(key, &old->second, value));

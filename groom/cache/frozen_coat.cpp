@@ -18,6 +18,11 @@ struct Head {
   uint64_t strands = 0;
 };
 
+/// Files of other versions have other names, so they are not taken for damaged.
+ContentHash entry_key(const ContentHash& key) {
+  return ContentHasher().add(key).add(Head().version).add(growth_version::kFrozen).digest();
+}
+
 bool fits(const FrozenLeaf& frozen, const CoatSource& source, const FollicleTree::Leaf& leaf) {
   if (frozen.strand_count() != leaf.end - leaf.begin) return false;
   for (const FrozenLeaf::Block& block : frozen.blocks()) {
@@ -31,15 +36,15 @@ bool fits(const FrozenLeaf& frozen, const CoatSource& source, const FollicleTree
 }  // namespace
 
 std::filesystem::path FrozenCoat::file(const ContentStore& store, const ContentHash& key) {
-  return store.file(kKind, key);
+  return store.file(kKind, entry_key(key));
 }
 
 std::optional<FrozenCoat> FrozenCoat::open(const ContentStore& store, const ContentHash& key,
                                            const CoatSource& source, const WarningSink& warn) {
-  std::optional<StoredFile> file = store.open(kKind, key, warn);
+  std::optional<StoredFile> file = store.open(kKind, entry_key(key), warn);
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FrozenCoat> {
-    warn(store.file(kKind, key).string() +
+    warn(FrozenCoat::file(store, key).string() +
          ": damaged cache file: its strands do not match the groom; it is made again");
     return {};
   };
@@ -83,7 +88,7 @@ bool FrozenCoat::store(const ContentStore& store, const ContentHash& key,
   std::memcpy(first.data(), &head, sizeof(head));
   if (!reaches.empty())
     std::memcpy(first.data() + sizeof(head), reaches.data(), reaches.size() * sizeof(StrandReach));
-  ContentStore::Writer writer = store.writer(kKind, key);
+  ContentStore::Writer writer = store.writer(kKind, entry_key(key));
   writer.add(first);
   for (const std::vector<std::byte>& leaf : leaves) writer.add(leaf);
   return writer.commit(warn);

@@ -2,9 +2,9 @@
 #include "groom/cache/groom_identity.h"
 
 #include "base/error.h"
-#include "base/file_hash.h"
+#include "base/file.h"
+#include "base/program_identity.h"
 #include "geom/limit_surface.h"
-#include "groom/cache/growth_identity.h"
 
 namespace pelage {
 namespace {
@@ -26,7 +26,10 @@ void describe(const T& value, const char* key, std::vector<ParameterText>& out) 
 
 GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
                              const LimitSurface* rest) {
-  add("skin", {{"program", growth_identity()}, {"mesh", rest ? to_string(rest->hash()) : "none"}});
+  add("skin", growth_version::kSkin,
+      {{"fields", std::to_string(growth_version::kFields)},
+       {"machine", arithmetic_identity()},
+       {"mesh", rest ? to_string(rest->hash()) : "none"}});
 
   std::vector<ParameterText> strands;
   strands.push_back({"seed", std::to_string(seed)});
@@ -44,13 +47,16 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
       strands.push_back(std::move(parameter));
     }
   }
-  add("strands", strands);
-  add("points", {{"points", std::to_string(params.points)}});
-  for (const auto& op : stack.operators()) add(std::string(op->traits().name), op->parameters());
+  add("strands", growth_version::kStrands, strands);
+  add("points", growth_version::kPoints, {{"points", std::to_string(params.points)}});
+  for (const auto& op : stack.operators()) {
+    const OperatorTraits traits = op->traits();
+    add(std::string(traits.name), traits.version, op->parameters());
+  }
 }
 
-void GroomIdentity::add(std::string name, const std::vector<ParameterText>& parameters) {
-  GroomStage stage{std::move(name), {}, {}};
+void GroomIdentity::add(std::string name, int version, const std::vector<ParameterText>& parameters) {
+  GroomStage stage{std::move(name), {{"version", std::to_string(version)}}, {}};
   for (const ParameterText& parameter : parameters) {
     std::string text = parameter.text;
     // A file is identified by its contents: its path does not affect the result.

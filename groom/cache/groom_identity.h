@@ -11,11 +11,26 @@
 
 namespace pelage {
 
+/// Versions of the steps of growth that are not operators; the version of an operator is one of its traits.
+///
+/// Cached strands are found by these versions, so a change of the code leaves caches valid unless it raises
+/// one. Raise the version of the first step that now gives other results, if only in the last digit.
+/// tests/groom/cache/growth_versions_test.cpp fails when results change and no version does.
+namespace growth_version {
+inline constexpr int kSkin = 1;     ///< limit surfaces and their frames (geom/)
+inline constexpr int kFields = 1;   ///< maps, ramps and noise (image/)
+inline constexpr int kStrands = 1;  ///< places of follicles; strands of a file and their roots
+inline constexpr int kPoints = 1;   ///< strands before the first operator
+inline constexpr int kFrozen = 1;   ///< rounding of frozen strands (groom/cache/strand_codes.h)
+inline constexpr int kPose = 1;     ///< finished strands in a pose (Groom::grow())
+}  // namespace growth_version
+
 /// One step of making a coat. Lists all its inputs as readable text, so that a change can be shown to the
 /// user.
 struct GroomStage {
   std::string name;  ///< "skin", "strands", "points", or the name of an operator
-  std::vector<std::pair<std::string, std::string>> inputs;  ///< name and value of each: "amount", "0.6"
+  /// Name and value of each: "amount", "0.6". "version" is the version of the code that runs the stage.
+  std::vector<std::pair<std::string, std::string>> inputs;
   ContentHash hash;  ///< hash of this stage and of all stages before it
 };
 
@@ -36,7 +51,7 @@ class GroomIdentity {
   const ContentHash& whole() const { return stages_.back().hash; }
 
  private:
-  void add(std::string name, const std::vector<ParameterText>& parameters);
+  void add(std::string name, int version, const std::vector<ParameterText>& parameters);
 
   std::vector<GroomStage> stages_;
 };

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/job.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "groom/coat/groom_params.h"
 #include "groom/strands/skin_binding.h"
 

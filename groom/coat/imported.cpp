@@ -8,7 +8,7 @@
 
 #include "base/job.h"
 #include "base/memory_budget.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "base/release.h"
 #include "groom/coat/attachment.h"
 #include "groom/strands/named_strands.h"

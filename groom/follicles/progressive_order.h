@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "groom/follicles/candidate_supply.h"
+#include "groom/follicles/follicle_candidates.h"
 
 namespace pelage {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/schema.h"
-#include "groom/operators/operator_of.h"
+#include "groom/operators/operator.h"
 #include "groom/strands/strand_batch.h"
 #include "image/field.h"
 

@@ -5,11 +5,16 @@
 #include <vector>
 
 #include "base/value_readers.h"
+#include "base/vector.h"
 #include "geom/strands.h"
 #include "groom/operators/operator.h"
 #include "groom/strands/root_grid.h"
 
 namespace pelage {
+
+/// Returns the control points of a pinned uniform cubic B-spline with `count` points. The knots of this
+/// spline lie on strand `strand`, at equal distances of arc length.
+std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count);
 
 struct GuideFile {
   AssetPath file;

@@ -8,7 +8,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "geom/strands.h"
-#include "groom/operators/operator_of.h"
+#include "groom/operators/operator.h"
 #include "groom/strands/root_grid.h"
 #include "image/field.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/schema.h"
-#include "groom/operators/operator_of.h"
+#include "groom/operators/operator.h"
 #include "image/field.h"
 
 namespace pelage {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operators/operator_of.h"
+#include "groom/operators/operator.h"
 #include "image/field.h"
 
 namespace pelage {

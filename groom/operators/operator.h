@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -117,6 +118,18 @@ class Operator {
   /// Returns the bounds of strands after apply(). `before`: their bounds before it. The max distance is at
   /// most 1.5 times the distance of the point that is actually the farthest.
   virtual StrandReach reach_after(const StrandReach& before) const = 0;
+};
+
+/// An operator whose keys in the scene file are described by `P`, a struct with a Schema.
+template <class P>
+class OperatorOf : public Operator {
+ public:
+  using Params = P;
+  explicit OperatorOf(P params) : params_(std::move(params)) {}
+  std::vector<ParameterText> parameters() const override { return P::schema().describe(params_); }
+
+ protected:
+  P params_;
 };
 
 }  // namespace pelage

@@ -10,14 +10,12 @@ namespace pelage {
 namespace {
 
 const std::string kKind = "boxes";
-// Incremented whenever the same strands would get different boxes, or the layout of the file changes.
-constexpr uint32_t kVersion = 2;
 
 // With reduced detail, a coat may be divided into different numbers of chunks.
 ContentHash entry_key(const BoundsRecord& record, BoundSpan span, int keys) {
   return ContentHasher()
       .add("boxes")
-      .add(kVersion)
+      .add(kBoundsVersion)
       .add(record.key)
       .add(static_cast<uint64_t>(record.count))
       .add(span)

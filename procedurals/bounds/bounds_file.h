@@ -17,6 +17,10 @@ namespace pelage {
 //   3. for each chunk, the grid of its fine boxes (9 floats: corner, motion, step) and their number (32 bits)
 //   4. the groups of fine boxes of all chunks, only of the finest level (SegmentCellBounds::Group)
 
+/// Raised whenever the same strands get different boxes, or the layout of the file changes.
+/// tests/procedurals/stored_versions_test.cpp fails when boxes change and the version does not.
+inline constexpr uint32_t kBoundsVersion = 2;
+
 /// Reads the boxes of all chunks of the entry `record`, with `keys` keys each. Returns an empty list when the
 /// entry is missing. A damaged or implausible entry causes one warning and counts as missing.
 std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span, int keys,

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/job.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 
 namespace pelage {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/hash.h"
-#include "lod/size.h"
+#include "lod/lod_view.h"
 #include "render/frame/rest_place.h"
 #include "render/gather/gather_point_level.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/memory_budget.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "rib/syntax/rib_curves.h"
 
 namespace pelage {

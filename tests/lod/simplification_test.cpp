@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "lod/size.h"
+#include "lod/lod_view.h"
 
 namespace pelage {
 namespace {

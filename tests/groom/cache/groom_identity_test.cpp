@@ -169,5 +169,57 @@ TEST_F(GroomIdentityTest, WhatDoesNotMatterLeavesTheCacheFresh) {
   EXPECT_NE(hash(frozen + "- width: {root: 0.02}\n"), hash(frozen + "- width: {root: 0.03}\n"));
 }
 
+/// Replaces the manifest of a cache, and removes the strands.
+void pretend(const std::filesystem::path& manifest, const std::filesystem::path& offsets,
+             const std::string& text) {
+  const ContentHash key = StoredFile(manifest).key();
+  ContentStore::Writer writer(manifest, "manifest", key);
+  writer.add(std::as_bytes(std::span(text.data(), text.size())));
+  ASSERT_TRUE(writer.commit([](const std::string& line) { ADD_FAILURE() << line; }));
+  std::filesystem::remove(offsets);
+}
+
+TEST_F(GroomIdentityTest, CachesOfOtherVersionsAreStaleAndNotDamaged) {
+  const Coat coat{"- length: {value: 0.5}\n- frizz: {}\n", "frizz"};
+  make(coat);
+  ASSERT_EQ(files("manifest").size(), 1u);
+  const auto manifest = files("manifest").front(), offsets = files("offsets").front();
+  const std::string text = [&] {
+    const StoredFile file(manifest);
+    return std::string(reinterpret_cast<const char*>(file.section(0).data()), file.section(0).size());
+  }();
+  const auto replaced = [](std::string in, const std::string& from, const std::string& by) {
+    const size_t at = in.find(from);
+    EXPECT_NE(at, std::string::npos) << from << " in\n" << in;
+    return in.replace(at, from.size(), by);
+  };
+  const auto hash_of_stage = [&](const std::string& name) {
+    return text.substr(text.find("\n" + name + "\t") + name.size() + 2, 32);
+  };
+  // An operator of another version.
+  std::string other = replaced(text, hash_of_stage("frizz"), std::string(32, '1'));
+  const size_t frizz = other.find("\nfrizz\t");
+  other = other.substr(0, frizz) + replaced(other.substr(frizz), "version\t1", "version\t0");
+  pretend(manifest, offsets, other);
+  EXPECT_EQ(make(coat)->cache_report()->summary(),
+            "stale from frizz (this version of Pelage computes it differently)");
+  // Another machine.
+  const size_t machine = text.find("\tmachine\t") + 9;
+  other = replaced(text, text.substr(5, 32), std::string(32, '1'));
+  other.replace(machine, 3, "old");
+  pretend(manifest, offsets, other);
+  EXPECT_EQ(make(coat)->cache_report()->summary(),
+            "stale from skin (the compiler, the libraries or the processor changed)");
+  // A program without versions: it stated a hash of its sources.
+  other = "skin\t" + std::string(32, '1') + "\n\tprogram\tabc fma\n" + text.substr(text.find("\tmesh\t"), 39);
+  pretend(manifest, offsets, other);
+  EXPECT_EQ(
+      make(coat)->cache_report()->summary(),
+      "stale from skin (this version of Pelage computes it differently, this version of Pelage computes "
+      "maps and noise differently)");
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+  EXPECT_TRUE(make(coat)->cache_report()->fresh);
+}
+
 }  // namespace
 }  // namespace pelage

@@ -6,7 +6,7 @@
 #include "base/temporary_folder.h"
 #include "geom/curve.h"
 #include "geom/io/strand_file.h"
-#include "groom/strands/resample.h"
+#include "groom/operators/guide_set.h"
 #include "tests/groom/operator_harness.h"
 
 namespace pelage {

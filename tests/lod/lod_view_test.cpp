@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The three measures against what a camera does, taken apart ray by ray.
+#include "lod/lod_view.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,10 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "lod/depth_of_field.h"
-#include "lod/facing.h"
-#include "lod/motion_blur.h"
-#include "lod/size.h"
 
 namespace pelage {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "post/uncovered.h"
+#include "post/piece_headers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lod/motion_blur.h"
+#include "lod/lod_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,14 @@ Seen seen(const LodView& view, const V3f& at_open, const V3f& at_close) {
 
 }  // namespace
 
+float pixels_per_unit(const LodView& view, float distance) {
+  return view.open.focal_pixels / std::max(distance, view.near_distance);
+}
+
+float pixels_per_unit(const LodView& view, const V3f& point) {
+  return pixels_per_unit(view, (point - view.open.position).length());
+}
+
 float motion_across(const LodView& view, const V3f& at_open, const V3f& at_close) {
   return seen(view, at_open, at_close).motion.length();
 }
@@ -34,6 +42,16 @@ float motion_across_line(const LodView& view, const V3f& at_open, const V3f& at_
   const Seen s = seen(view, at_open, at_close);
   const float along = s.motion.normalized().dot(turned(view.open, line));
   return s.motion.length() * std::sqrt(std::max(0.0f, 1 - along * along));
+}
+
+float confusion_diameter(const LodView& view, const V3f& point) {
+  if (!(view.lens_diameter > 0)) return 0;
+  const float depth = std::max(0.0f, (point - view.open.position).dot(view.open.forward));
+  return view.lens_diameter * std::abs(depth - view.focus_distance) / view.focus_distance;
+}
+
+float facing(const LodView& view, const V3f& point, const V3f& normal) {
+  return normal.length2() > 0 ? normal.dot((view.open.position - point).normalized()) : 1.0f;
 }
 
 }  // namespace pelage

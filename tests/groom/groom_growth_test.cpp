@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "groom/growth_steps.h"
-
 #include <algorithm>
 
 #include "base/temporary_folder.h"

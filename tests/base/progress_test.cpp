@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/progress_stage.h"
+#include "base/progress.h"
 
 #include <stdexcept>
 #include <string>
