@@ -5,10 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lod/depth_of_field.h"
-#include "lod/facing.h"
-#include "lod/motion_blur.h"
-#include "lod/size.h"
+#include "lod/lod_view.h"
 
 namespace pelage {
 namespace {

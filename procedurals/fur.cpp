@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "base/program_identity.h"
 #include "geom/strand_merge.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "procedurals/thinned_fur.h"
 
 namespace pelage {
@@ -120,7 +119,6 @@ ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
 
 std::optional<ContentHash> FurLeafProcedural::content() const {
   return ContentHasher()
-      .add(program_identity())
       .add(groom_->content_hash())
       .add(skin_->hash())
       .add(skin_->length())
@@ -132,13 +130,7 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  // The code that makes boxes is in this room: boxes of other builds of the program are not used.
-  record.key = ContentHasher()
-                   .add(program_identity())
-                   .add(groom_->content_hash())
-                   .add(skin_->hash())
-                   .add(skin_->length())
-                   .digest();
+  record.key = ContentHasher().add(groom_->content_hash()).add(skin_->hash()).add(skin_->length()).digest();
   record.index = leaf_;
   record.count = groom_->follicles().leaves().size();
   return record;

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "lod/fewer_points.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 
 namespace pelage {
 
@@ -112,7 +111,7 @@ size_t ThinnedFurProcedural::temporary_bytes() const {
 /// Hash of all kept strands of the coat, however it is divided.
 ContentHash ThinnedFurProcedural::coat() const {
   return ContentHasher()
-      .add(program_identity())
+      .add(kVersion)
       .add(detail_->groom().content_hash())
       .add(skin_->hash())
       .add(skin_->length())

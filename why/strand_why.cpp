@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 #include "geom/strand_point.h"
-#include "groom/growth_steps.h"
+#include "groom/groom.h"
 #include "procedurals/fur.h"
 
 namespace pelage {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "procedurals/detail_policy.h"
-#include "world/drawn_characters.h"
+#include "procedurals/detail/detail_policy.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
@@ -20,7 +20,7 @@ class FramePoser {
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
-  void add(const DrawnCharacter& character, bool reduced, FrameParts& parts) {
+  void add(const FrameCharacter& character, bool reduced, FrameParts& parts) {
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, parts);
   }
@@ -32,7 +32,7 @@ class FramePoser {
                : camera_.lod_view();
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, bool reduced, FrameParts& parts) {
+  void add_part(const FrameCharacter& character, size_t index, bool reduced, FrameParts& parts) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
@@ -93,10 +93,10 @@ Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, 
 
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
                       const std::set<std::string>& only) {
-  const std::vector<DrawnCharacter> drawn = drawn_characters(scene, assets);
+  const std::vector<FrameCharacter> drawn = frame_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
   FrameParts parts;
-  for (const DrawnCharacter& character : drawn) {
+  for (const FrameCharacter& character : drawn) {
     job.check_stop();
     if (only.empty() || only.contains(character.name)) poser.add(character, scene.render.lod.enabled, parts);
   }

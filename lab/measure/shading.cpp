@@ -82,7 +82,7 @@ void add_work(Columns& columns) {
   });
   columns.add_number("rays_proved", "rays proved", "rays_skipped_skin");
   columns.add_number("knots", "knots", "knots");
-  columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
+  columns.add("samples_per_gather_point", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");
     return knots > 0 ? run.outcome.number("knot_samples") / knots : NAN;
   });

@@ -22,9 +22,9 @@ class FrameGeometry {
   /// counts and times of these steps.
   ///
   /// `kept`, if not null: chunks of an earlier frame. Those with the same contents are used instead of
-  /// growing them again, and the others are freed. When cancelled, `kept` is unchanged. The first picture is
-  /// then more urgent than the last: FrameChunks::bound_quickly(). Call tighten() when many chunks have
-  /// grown.
+  /// growing them again, and the others are freed. When cancelled, `kept` is unchanged. With `kept`, the time
+  /// to the first picture matters most, so boxes come from FrameChunks::bound_quickly(). Call tighten() when
+  /// many chunks have grown.
   static std::unique_ptr<FrameGeometry> make(const RenderScene& scene, const Job& job,
                                              FrameStatistics& statistics, KeptFur* kept = nullptr);
   /// Uses the measured boxes of chunks that have grown, so that later rays are faster. Affects no hit. No ray

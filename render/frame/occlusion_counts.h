@@ -8,7 +8,7 @@ namespace pelage {
 /// Counts of shadow rays by how their outcome became known, for one thread, one frame or several frames.
 /// Traced rays are in RayStatistics.
 struct OcclusionCounts {
-  int64_t candidates = 0;         ///< points on lights that were drawn as targets of shadow rays
+  int64_t candidates = 0;         ///< points on lights that were sampled as targets of shadow rays
   int64_t candidates_proved = 0;  ///< of these, left out because the skin blocks them for certain
   int64_t rays_proved = 0;        ///< rays that were not traced because the skin blocks them for certain
 

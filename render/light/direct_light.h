@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "render/light/drawn_lights.h"
+#include "render/light/far_light_samples.h"
 #include "render/light/light_set.h"
 #include "render/light/mis.h"
 #include "render/light/scatter_point.h"
@@ -41,10 +41,10 @@ struct DirectLightScratch {
 /// Estimates direct light at a scatter point with two techniques, weighted by the power heuristic [Veach97,
 /// section 9.2].
 ///
-/// Light sampling selects lights by importance, and draws several candidate points on them. The targets of
+/// Light sampling selects lights by importance, and samples several candidate points on them. The targets of
 /// shadow rays are resampled from the candidates, in proportion to the light that each candidate would
 /// contribute if nothing blocked it. This pays because evaluating a fibre costs much less than tracing a ray
-/// [Talbot05]. Lobe sampling draws a direction from the lobes, and finds the lights that a ray in this
+/// [Talbot05]. Lobe sampling samples a direction from the lobes, and finds the lights that a ray in this
 /// direction hits. Lights do not block rays or each other.
 ///
 /// At each point, call begin() first, then propose() and choose() for shadow rays, and find_lights() for a
@@ -55,7 +55,7 @@ class DirectLight {
   /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `drawn`: where
   /// points on lights come from; null: Light::sample().
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
-              const DrawnLights* drawn = nullptr)
+              const FarLightSamples* drawn = nullptr)
       : lights_(lights), drawn_(drawn), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
@@ -63,7 +63,7 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Returns the count of candidates that propose() draws.
+  /// Returns the count of candidates that propose() samples.
   uint32_t candidates() const { return rays_ * kCandidates; }
   /// Returns the weight of one candidate: 1 / count of candidates, because direct light is their mean.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
@@ -75,9 +75,9 @@ class DirectLight {
         point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
-  /// Draws the candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
+  /// Samples candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
   /// would contribute nothing, so leaving them out changes no expected value. `u`: two random numbers in [0,
-  /// 1). `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose
+  /// 1). `lobe_pdf(value)` must return the density with which lobe sampling finds a direction whose
   /// scattering is `value`.
   template <class LobePdf>
   void propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
@@ -116,7 +116,7 @@ class DirectLight {
                                         DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
-  const DrawnLights* const drawn_;
+  const FarLightSamples* const drawn_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
 };
@@ -169,7 +169,7 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 
 template <class Shadow>
 void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch, const Shadow& shadow) const {
-  // Points are drawn in proportion to the unoccluded light that they contribute.
+  // Points are chosen in proportion to the unoccluded light that they contribute.
   double all = 0;
   for (const LightPoint& point : scratch.points) all += double{point.luminance};
   if (!(all > 0)) return;

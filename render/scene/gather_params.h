@@ -19,8 +19,8 @@ struct EnumNames<GatherVisibility> {
 struct GatherParams {
   std::optional<GatherVisibility> visibility;  ///< empty: see RenderParams::draws_visible()
   bool reuse = true;                           ///< false: samples share no light
-  float spacing = 4;                           ///< max distance between knots along a strand, pixels
-  float skin_spacing = 2;                      ///< max distance between knots on a skin, pixels
+  float spacing = 4;                           ///< max distance between gather points along a strand, pixels
+  float skin_spacing = 2;                      ///< max distance between gather points on a skin, pixels
   bool cells = true;                           ///< whether neighbouring thin strands share light
   float min_width = 0;                         ///< width at which the camera sees thinner strands, pixels
   float light_rays = 3;                        ///< mean count of shadow rays per visible sample

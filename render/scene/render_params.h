@@ -7,7 +7,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "lod/simplification_params.h"
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/camera/camera.h"
 #include "render/sampling/adaptive_params.h"
 #include "render/scene/gather_params.h"
@@ -104,8 +104,8 @@ struct RenderParams {
     const bool pays = integrator == Integrator::kGather && skins <= kFewSkins;
     return skin_ball.value_or(pays ? SkinBallUse::kExact : SkinBallUse::kOff);
   }
-  /// Max `bounces` without the reflection cache by default. A single bounce ends where the cache would end
-  /// it. In crowds, an animal covers few pixels, and few paths fill its cells.
+  /// Up to this number of `bounces`, the reflection cache is off by default. A single bounce ends where the
+  /// cache would end it. In crowds, an animal covers few pixels, and few paths fill its cells.
   static constexpr int kFewBounces = 1, kFewBouncesInCrowds = 7;
   /// Returns whether indirect paths of `gather` end in the reflection cache, in a scene with `skins` skins.
   bool uses_cache(size_t skins) const {

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "procedurals/posed_character_skin.h"
+#include "procedurals/skin/posed_character_skin.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
 #include "world/compose.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
@@ -154,7 +154,7 @@ TEST_F(CrowdCompositionTest, AnimalsShareATopology) {
   compose_frame(1, {crowd("seed: 2")});
   const auto& shared = assets_->skins.at("cube").rest->shared_topology();
   size_t animals = 0;
-  for (const DrawnCharacter& drawn : drawn_characters(description_, *assets_)) {
+  for (const FrameCharacter& drawn : frame_characters(description_, *assets_)) {
     if (!drawn.member) continue;
     ++animals;
     EXPECT_EQ(pose_character(drawn, 0, *assets_, description_.camera, 1).topology, shared);
