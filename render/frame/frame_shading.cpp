@@ -105,7 +105,7 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const KnownOcclusion& known)
+FrameShading::FrameShading(const FrameScene& scene, const KnownOcclusion& known)
     : scene_(scene), known_(known), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {

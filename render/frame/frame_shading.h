@@ -10,7 +10,7 @@
 #include "render/film/film.h"
 #include "render/frame/known_occlusion.h"
 #include "render/light/scatter_point.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -20,7 +20,7 @@ namespace pelage {
 class FrameShading {
  public:
   /// `known`: stored in the points of scatter_point(). Must outlive this object.
-  explicit FrameShading(const RenderScene& scene, const KnownOcclusion& known = {});
+  explicit FrameShading(const FrameScene& scene, const KnownOcclusion& known = {});
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
@@ -58,7 +58,7 @@ class FrameShading {
   Rgb skin_color(const SkinPart& part, const Skin& skin, const Hit& hit, const SkinMesh& triangle) const;
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const KnownOcclusion known_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material

@@ -9,7 +9,7 @@
 #include "render/camera/camera.h"
 #include "render/gather/coat_cells.h"
 #include "render/gather/strand_knots.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -44,7 +44,7 @@ struct KnotKey {
 class KnotKeys {
  public:
   /// Keeps a reference to `scene`. `samples`: max samples per pixel that are rendered at once.
-  KnotKeys(const RenderScene& scene, uint32_t samples);
+  KnotKeys(const FrameScene& scene, uint32_t samples);
 
   /// Returns the knot that a hit is assigned to. `random`: two random numbers in [0, 1), which select one of
   /// the knots around the hit.

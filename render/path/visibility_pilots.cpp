@@ -8,7 +8,7 @@
 #include "base/hash.h"
 #include "base/memory_budget.h"
 #include "render/accel/flush_denormals.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/sample_scratch.h"
 
 namespace pelage {
 namespace {
@@ -23,7 +23,7 @@ constexpr size_t kBlock = 64, kBatch = 4096;  // pilots of one task, and between
 enum Draw : uint32_t { kLight = 0, kLobe = 1, kVertexDraws = 3 };
 
 /// Count of shadow rays of a vertex.
-size_t candidates(const RenderScene& scene) {
+size_t candidates(const FrameScene& scene) {
   return DirectLight(scene.lights, kTargets, DirectTechniques::kBoth).candidates();
 }
 
@@ -42,14 +42,14 @@ struct VisibilityPilots::Scratch final : SampleScratch {
   DirectLightScratch direct;
 };
 
-VisibilityPilots::VisibilityPilots(const RenderScene& scene, const Accel& accel, const PathOptions& options)
+VisibilityPilots::VisibilityPilots(const FrameScene& scene, const Accel& accel, const PathOptions& options)
     : scene_(scene),
       accel_(accel),
       shading_(scene, {options.known.balls, nullptr}),
       camera_(scene, accel, true),
       direct_(scene.lights, kTargets, DirectTechniques::kBoth) {}
 
-size_t VisibilityPilots::count(const RenderScene& scene) {
+size_t VisibilityPilots::count(const FrameScene& scene) {
   const auto pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
   return std::clamp(pixels / kPixelsPerPilot, kMinPilots, kMaxPilots);
 }
@@ -118,19 +118,19 @@ VisibilityPilots::PilotRays VisibilityPilots::trace(size_t begin, size_t end, co
 }
 
 /// Upper bound of the memory of the rays of kBatch pilots.
-int64_t VisibilityPilots::batch_bytes(const RenderScene& scene) {
+int64_t VisibilityPilots::batch_bytes(const FrameScene& scene) {
   const size_t rays = std::min(kBatch, count(scene)) * kVertices * candidates(scene);
   return static_cast<int64_t>(2 * rays * sizeof(PilotRay));
 }
 
-PilotNeeds VisibilityPilots::needs_of_rays(const RenderScene& scene, size_t pilots) {
+PilotNeeds VisibilityPilots::needs_of_rays(const FrameScene& scene, size_t pilots) {
   const size_t vertices = std::min<size_t>(kVertices, static_cast<size_t>(scene.render.bounces) + 1);
   PilotNeeds needs;
   needs.rays = static_cast<int64_t>(pilots * vertices * (1 + candidates(scene)));
   return needs;
 }
 
-PilotNeeds VisibilityPilots::needs_of_table(const RenderScene& scene) {
+PilotNeeds VisibilityPilots::needs_of_table(const FrameScene& scene) {
   PilotNeeds needs = needs_of_rays(scene, count(scene));
   const size_t lights = scene.lights.size();
   const size_t cells = std::min(count(scene) * kVertices, VisibilityTable::max_cells(lights));
@@ -140,7 +140,7 @@ PilotNeeds VisibilityPilots::needs_of_table(const RenderScene& scene) {
   return needs;
 }
 
-PilotNeeds VisibilityPilots::needs_of_shells(const RenderScene& scene) {
+PilotNeeds VisibilityPilots::needs_of_shells(const FrameScene& scene) {
   PilotNeeds needs = needs_of_rays(scene, std::min(count(scene), kBatch));
   needs.tracing_bytes = 2 * batch_bytes(scene);
   return needs;

@@ -32,7 +32,7 @@ class VisibilityPilots {
  public:
   /// Keeps references to `scene` and `accel`. `options`: those of the picture. Known balls are used: light
   /// that they block is not learned.
-  VisibilityPilots(const RenderScene& scene, const Accel& accel, const PathOptions& options);
+  VisibilityPilots(const FrameScene& scene, const Accel& accel, const PathOptions& options);
 
   /// Traces all pilots, and returns what they learned. Adds their rays to `statistics`. Throws Error
   /// (kMemory) if the table may not fit `render.memory`, and Error (kStopped) when the job is stopped.
@@ -40,23 +40,23 @@ class VisibilityPilots {
   /// Traces some pilots, and fits a shell to the coats of each skin with balls. As learn() otherwise.
   std::vector<CoatShell> fit_shells(const Job& job, FrameStatistics& statistics) const;
   /// Returns what learn() takes.
-  static PilotNeeds needs_of_table(const RenderScene& scene);
+  static PilotNeeds needs_of_table(const FrameScene& scene);
   /// Returns what fit_shells() takes.
-  static PilotNeeds needs_of_shells(const RenderScene& scene);
+  static PilotNeeds needs_of_shells(const FrameScene& scene);
 
  private:
   struct PilotRay;
   struct Scratch;
   using PilotRays = std::vector<std::vector<PilotRay>>;  // by block of pilots
 
-  static size_t count(const RenderScene& scene);
-  static PilotNeeds needs_of_rays(const RenderScene& scene, size_t pilots);
+  static size_t count(const FrameScene& scene);
+  static PilotNeeds needs_of_rays(const FrameScene& scene, size_t pilots);
   PilotRays trace(size_t begin, size_t end, const Job& job, std::vector<Scratch>& scratch) const;
   void follow(size_t pilot, Scratch& scratch, std::vector<PilotRay>& rays) const;
-  static int64_t batch_bytes(const RenderScene& scene);
+  static int64_t batch_bytes(const FrameScene& scene);
   static void add_costs(const std::vector<Scratch>& scratch, FrameStatistics& statistics);
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const Accel& accel_;
   FrameShading shading_;
   CameraSamples camera_;

@@ -20,7 +20,7 @@ class ReflectionCache {
   static constexpr uint32_t kFewestPaths = 8;
 
   /// Keeps a reference to `scene`. `reserved`: ends here; it must cover the cells.
-  ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
+  ReflectionCache(const FrameScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                   MemoryLedger& ledger);
 
   /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few
