@@ -19,7 +19,6 @@
 #include "render/frame/sample_passes.h"
 #include "render/gather/gather_tracer.h"
 #include "render/path/path_tracer.h"
-#include "render/path/visibility_pilots.h"
 
 namespace pelage {
 namespace {
@@ -81,25 +80,13 @@ TileCosts take_samples(const TileIntegrator& integrator, const RenderParams& ren
   return loop.costs();
 }
 
-/// Prepares what the scene asks for to save shadow rays. Returns false when cancelled.
+/// Finds the balls inside skins, if the scene asks for them. Returns false when cancelled.
 bool prepare_shadows(const RenderScene& contents, const FrameScene& scene, FrameGeometry& geometry,
-                     const Job& job, std::unique_ptr<const VisibilityTable>& table, PathOptions& path,
-                     FrameStatistics& statistics) try {
-  if (const SkinBallUse use = scene.render.ball_use(scene.skins.size()); use != SkinBallUse::kOff) {
-    const Stopwatch clock;
-    SkinShadows& shadows = geometry.shadows(contents, job);
-    path.known.balls = &shadows;
-    shadows.set_shells({});
-    if (use == SkinBallUse::kFractional && scene.lights.size() > 0)
-      shadows.set_shells(VisibilityPilots(scene, geometry.accel(), path).fit_shells(job, statistics));
-    statistics.stages_s["skin balls"] += clock.seconds();
-  }
-  if (scene.render.learned_visibility != LearnedUse::kOff && scene.lights.size() > 0) {
-    const Stopwatch clock;
-    table = VisibilityPilots(scene, geometry.accel(), path).learn(job, statistics);
-    path.known.visibility = table.get();
-    statistics.stages_s["pilot rays"] += clock.seconds();
-  }
+                     const Job& job, PathOptions& path, FrameStatistics& statistics) try {
+  if (scene.render.ball_use(scene.skins.size()) == SkinBallUse::kOff) return true;
+  const Stopwatch clock;
+  path.balls = &geometry.shadows(contents, job);
+  statistics.stages_s["skin balls"] += clock.seconds();
   return true;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kStopped) throw;
@@ -153,8 +140,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   if (used.render.integrator == Integrator::kGather) memory = GatherTracer::reserve(used, job);
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
   PathOptions path = options.path;
-  std::unique_ptr<const VisibilityTable> table;
-  result.partial = !geometry || !prepare_shadows(scene, used, *geometry, job, table, path, result.statistics);
+  result.partial = !geometry || !prepare_shadows(scene, used, *geometry, job, path, result.statistics);
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();

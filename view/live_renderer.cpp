@@ -28,7 +28,6 @@ FrameSettings preview_settings(const RenderScene& scene) {
   settings.render.integrator = Integrator::kPath;
   settings.render.samples = 1;
   settings.render.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
-  settings.render.learned_visibility = LearnedUse::kOff;
   settings.image.filter_samples = FilterSamples::kDrawn;
   return settings;
 }
@@ -117,7 +116,8 @@ void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {
     const std::lock_guard lock(mutex_);
     next_ = std::move(edit);
     waiting_ = true;
-    // Before the thread takes the edit, and after waiting_: the render that ends now must not report rest.
+    // Clear the state after setting `waiting_`, so that the render that is ending does not report completion,
+    // and before the thread takes the edit.
     desk_.update([](ViewStatus& status) {
       status.at_rest = false;
       status.render_error.clear();

@@ -72,7 +72,7 @@ GatherTracer::GatherTracer(const FrameScene& scene, const Accel& accel, const Re
       options_(options),
       memory_(std::move(memory)),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
-      shading_(scene, options.known),
+      shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
@@ -104,7 +104,7 @@ uint32_t GatherTracer::together(uint32_t first, uint32_t end) const {
 size_t GatherTracer::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   const size_t rays = lights * TileSamples::targets(lights);
   const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
-  // At worst, each sample has a knot of its own.
+  // At worst, each sample has a gather point of its own.
   const size_t knot = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
                       PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
