@@ -56,7 +56,7 @@ class LiveRenderer::Watch final : public FrameWatch {
       : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
 
   void passed(const Film& film, const PassState& state) override {
-    ViewDesk& desk = renderer_.desk_;
+    ViewState& desk = renderer_.desk_;
     std::vector<std::string> names;
     Picture picture;
     picture.width = film.width();
@@ -87,7 +87,7 @@ class LiveRenderer::Watch final : public FrameWatch {
   const bool is_preview_;
 };
 
-LiveRenderer::LiveRenderer(ViewDesk& desk, int threads)
+LiveRenderer::LiveRenderer(ViewState& desk, int threads)
     : desk_(desk),
       workers_(threads),
       progress_(desk, ledger_, [this] { return must_end() || preview_is_over_; }),

@@ -33,7 +33,7 @@ uint32_t samples_at_once(const FrameScene& scene) {
 struct GatherTracer::Scratch final : SampleScratch {
   void add_to(FrameStatistics& statistics) const override {
     SampleScratch::add_to(statistics);
-    statistics.knots += knots;
+    statistics.gather_points += gather_points;
     statistics.reflections += indirect_paths.reflections;
   }
 
@@ -44,7 +44,7 @@ struct GatherTracer::Scratch final : SampleScratch {
   IndirectPaths::Scratch indirect_paths;
   LightSharing lights;
   PathSharing paths;
-  KnotStatistics knots;
+  GatherPointStatistics gather_points;
   uint32_t first_sample = 0;  // the first of the samples that share light
 };
 
@@ -55,7 +55,7 @@ GatherTracer::Memory GatherTracer::reserve(const FrameScene& scene, const Job& j
   const auto limit = static_cast<int64_t>(render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
-  const auto drawn = static_cast<int64_t>(render.gather.reuse ? DrawnLights::bytes(scene.lights) : 0);
+  const auto drawn = static_cast<int64_t>(render.gather.reuse ? FarLightSamples::bytes(scene.lights) : 0);
   Memory memory{tiles,
                 pelage::reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + drawn,
                                 "the sample buffer of the tiles that are rendered at once"),
@@ -103,14 +103,15 @@ uint32_t GatherTracer::together(uint32_t first, uint32_t end) const {
 
 size_t GatherTracer::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   const size_t rays = lights * TileSamples::targets(lights);
-  const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
+  const size_t ordered =
+      GatherPointOrder::bytes(1, 1) + GatherPointOrder::bytes(rays, lights) + rays * sizeof(float);
   // At worst, each sample has a gather point of its own.
-  const size_t knot = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
-                      PathSharing::bytes_per_knot(lights);
-  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
+  const size_t gather_point = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_gather_point(lights) +
+                              PathSharing::bytes_per_gather_point(lights);
+  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + gather_point;
   // One sample in kPilotShare is a pilot; at least one is.
   const size_t pilots = rays * sizeof(ShadowRays::Pilot) * (samples / kPilotShare + 1);
-  return RecentStrandKnots::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
+  return RecentGatherPoints::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
          kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
@@ -156,11 +157,11 @@ bool GatherTracer::gather(const Tile& tile, uint32_t first, uint32_t count, cons
   if (!look(first + pilot, count - pilot, job, scratch)) return false;
   if (!shadow_rays_.trace(samples, pilot_rays, job, scratch.shadow_rays, scratch, scratch.lights))
     return false;
-  scratch.lights.finish(samples.zone_of_knot.size());
-  scratch.paths.begin(samples.zone_of_knot.size(), samples.zones, lights, reuse);
+  scratch.lights.finish(samples.zone_of_gather_point.size());
+  scratch.paths.begin(samples.zone_of_gather_point.size(), samples.zones, lights, reuse);
   if (!indirect_paths_.trace(samples, job, scratch.indirect_paths, scratch, scratch.paths)) return false;
-  scratch.paths.finish(samples.zone_of_knot);
-  if (reuse) scratch.paths.blend(samples.patch_of_knot, samples.patches);
+  scratch.paths.finish(samples.zone_of_gather_point);
+  if (reuse) scratch.paths.blend(samples.patch_of_gather_point, samples.patches);
   return true;
 }
 
@@ -196,8 +197,8 @@ void GatherTracer::add_scattered(uint32_t point, Scratch& scratch) const {
   const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.lights.size() * kLobeGroups];
   for (size_t light = 0; light < scene_.lights.size(); ++light) {
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.knot, light, g);
-      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.knot, light, g);
+      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.gather_point, light, g);
+      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.gather_point, light, g);
       scratch.sample.radiance += part;
       if (g >= layers_.groups) continue;
       scratch.by_layer[layers_.scattered(light, g)] += part;
@@ -227,8 +228,8 @@ void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
     }
     task.add(samples.x(from.pixel) - task.left(), samples.y(from.pixel) - task.top(), scratch);
   }
-  scratch.knots += {.knots = static_cast<int64_t>(samples.zone_of_knot.size()),
-                    .samples = static_cast<int64_t>(samples.points.size())};
+  scratch.gather_points += {.gather_points = static_cast<int64_t>(samples.zone_of_gather_point.size()),
+                            .samples = static_cast<int64_t>(samples.points.size())};
   task.advance(samples.samples.size());
 }
 

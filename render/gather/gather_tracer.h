@@ -7,7 +7,7 @@
 
 #include "base/ledger.h"
 #include "base/stopwatch.h"
-#include "render/frame/knot_statistics.h"
+#include "render/frame/gather_point_statistics.h"
 #include "render/frame/tile_integrator.h"
 #include "render/gather/indirect_paths.h"
 #include "render/gather/light_sharing.h"
@@ -20,9 +20,9 @@
 namespace pelage {
 
 /// The integrator `gather`: finds the points that the camera samples of a tile see, and traces some of the
-/// rays that leave these points. The light that these rays find is shared among all points of the same knot
-/// (a position on a strand or skin, see KnotKey). Samples of different tiles never share light. The result
-/// depends only on the scene, the tile and the indices of its samples.
+/// rays that leave these points. The light that these rays find is shared among all points of the same gather
+/// point (a position on a strand or skin, see GatherPointKey). Samples of different tiles never share light.
+/// The result depends only on the scene, the tile and the indices of its samples.
 class GatherTracer final : public TileIntegrator {
  public:
   /// Memory of the tiles that are traced at the same time.
