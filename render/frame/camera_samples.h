@@ -6,7 +6,7 @@
 #include "render/accel/accel.h"
 #include "render/film/pixel_filter.h"
 #include "render/sampling/sample_stream.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -26,7 +26,7 @@ class CameraSamples {
  public:
   /// `scene` must outlive this object. With `splatted`, samples are distributed uniformly over their pixel;
   /// otherwise, their density is proportional to the pixel filter.
-  CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
+  CameraSamples(const FrameScene& scene, const Accel& accel, bool splatted);
 
   /// Returns the random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
@@ -34,7 +34,7 @@ class CameraSamples {
   CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
 
  private:
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const bool opaque_, widens_;
   const FilterSampler place_;
 };

@@ -26,7 +26,7 @@ float turned(float u, size_t i) {
 
 }  // namespace
 
-VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
+VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shading,
                              const CameraSamples& camera, uint32_t samples)
     : scene_(scene),
       shading_(shading),
@@ -49,15 +49,11 @@ uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scra
   return gather_point;
 }
 
-void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
-                         Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
-                         TileSamples& tile) const {
-  const int x = tile.x(pixel), y = tile.y(pixel);
-  SampleStream stream = camera_.stream(x, y, sample);
-  const CameraSample from = known ? *known : camera_.draw(x, y, sample, stream);
+void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& from, const Hit& hit,
+                        Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
+                        TileSamples& tile) const {
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  const Hit hit = find(from.ray);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
@@ -73,6 +69,7 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
     front.sample = index;
   }
 
+  const int x = tile.x(pixel), y = tile.y(pixel);
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const V2f choice(unit_float(random), unit_float(mix64(random)));
@@ -85,6 +82,7 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   visible.random = from.ray.random;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
+  SampleStream stream = camera_.stream(x, y, sample);
   find_light(point, stream, scratch, thread, visible, tile);
   expect_light(visible, tile.zone_of_gather_point[visible.gather_point], scratch, sharing);
   seek(stream, kLightChoice);

@@ -48,7 +48,7 @@ class ReflectionPaths::Recorder {
   std::optional<CellPath> cells_;
 };
 
-ReflectionPaths::ReflectionPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+ReflectionPaths::ReflectionPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                                  const CameraSamples& camera, const PathOptions& options)
     : scene_(scene),
       accel_(accel),
