@@ -13,7 +13,7 @@
 #include "procedurals/skin/posed_character_skin.h"
 #include "rib/scene/rib_reading.h"
 #include "world/archive_coats.h"
-#include "world/character_transform.h"
+#include "world/frame_characters.h"
 #include "world/compose.h"
 
 namespace pelage {

@@ -1,21 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/assets.h"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "base/file_stamp.h"
+#include "base/hash.h"
 #include "base/memory_budget.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
-#include "world/asset_keys.h"
 #include "world/crowds.h"
 #include "world/frame_characters.h"
 #include "world/map_check.h"
+#include "world/scene_schema.h"
 #include "world/skin_memory_check.h"
 
 namespace pelage {
-
 namespace {
+
+// Hashes of everything from which an asset is made: its part of the scene, and the stamps of its files. Equal
+// keys mean equal assets within one process. Take a key before the files are read: if a file changes
+// meanwhile, the next key is different.
+
+void add_part(const SceneDescription& scene, const std::string& path, ContentHasher& hasher) {
+  const auto part = scene.parts.find(path);
+  hasher.add(path).add(part == scene.parts.end() ? ContentHash() : part->second);
+}
+
+void add_files(const std::vector<std::filesystem::path>& files, ContentHasher& hasher) {
+  for (const std::filesystem::path& file : files) {
+    const FileStamp stamp = file_stamp(file);
+    hasher.add(file.string()).add(stamp.inode).add(stamp.size).add(stamp.changed_ns);
+  }
+}
+
+ContentHash skin_key(const SceneDescription& scene, const std::string& name, const SkinParams& params) {
+  ContentHasher hasher;
+  add_part(scene, "skins." + name, hasher);
+  add_files({params.mesh.path}, hasher);
+  if (params.poses) add_files(pose_files(*params.poses), hasher);
+  return hasher.digest();
+}
+
+/// `skin`: the key of the skin on which the groom grows; anything for a groom without a skin.
+ContentHash groom_key(const SceneDescription& scene, const std::string& name, const GroomParams& params,
+                      const ContentHash& skin) {
+  ContentHasher hasher;
+  add_part(scene, "grooms." + name, hasher);
+  std::vector<std::filesystem::path> files;
+  add_groom_files(params, files);
+  add_files(files, hasher);
+  return hasher.add(skin).add(params.leaf_size()).digest();  // its size may depend on the memory limit
+}
 
 using SharedTopologies = std::vector<std::shared_ptr<const SurfaceTopology>>;
 

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "procedurals/fur.h"
 #include "render/scene/render_scene.h"
-#include "world/character_transform.h"
 
 namespace pelage {
-
 namespace {
 
 bool is_prototype(const SceneDescription& scene, const std::string& character) {
@@ -53,6 +52,20 @@ Motion motion_of(const FrameCharacter& character, size_t part, const Assets& ass
 }
 
 }  // namespace
+
+M44f character_matrix(const TransformParams& transform, double frame) {
+  const float to_radians = std::numbers::pi_v<float> / 180;
+  M44f scale, rotation, translation;
+  scale.setScale(transform.scale.at(frame));
+  rotation.setEulerAngles(transform.rotate.at(frame) * to_radians);
+  translation.setTranslation(transform.translate.at(frame));
+  return scale * rotation * translation;
+}
+
+bool moves(const TransformParams& transform) {
+  return !transform.translate.is_constant() || !transform.rotate.is_constant() ||
+         !transform.scale.is_constant();
+}
 
 std::vector<FrameCharacter> frame_characters(const SceneDescription& scene, const Assets& assets) {
   std::vector<FrameCharacter> drawn;

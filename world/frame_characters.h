@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/vector.h"
 #include "procedurals/skin/posed_character_skin.h"
 #include "world/assets.h"
 #include "world/scene_schema.h"
@@ -37,5 +38,12 @@ bool has_coat(const FrameCharacter& character);
 /// Otherwise there is one cage.
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame);
+
+/// Returns the matrix M from the object space of a character to world space at a frame. Points are row
+/// vectors: p * M. The matrix scales first, then rotates about x, y and z in this order, then translates.
+M44f character_matrix(const TransformParams& transform, double frame);
+
+/// Returns whether the transform is animated, because one of its values has at least two keys.
+bool moves(const TransformParams& transform);
 
 }  // namespace pelage

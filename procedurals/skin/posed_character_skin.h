@@ -12,7 +12,6 @@
 #include "geom/view.h"
 #include "procedurals/skin/deferred_skin.h"
 #include "procedurals/skin/pose_cache.h"
-#include "procedurals/skin/skin_pose.h"
 
 namespace pelage {
 

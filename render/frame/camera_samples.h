@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "render/accel/accel.h"
-#include "render/film/filter_sampler.h"
+#include "render/film/pixel_filter.h"
 #include "render/sampling/sample_stream.h"
 #include "render/scene/render_scene.h"
 

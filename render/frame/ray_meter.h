@@ -8,9 +8,21 @@
 
 #include "base/process_usage.h"
 #include "render/accel/trace_counts.h"
-#include "render/frame/ray_statistics.h"
 
 namespace pelage {
+
+/// Counts of traced rays, by kind, for one thread, one frame or several frames.
+struct RayStatistics {
+  int64_t camera = 0, shadow = 0, indirect = 0;
+
+  int64_t total() const { return camera + shadow + indirect; }
+  RayStatistics& operator+=(const RayStatistics& other) {
+    camera += other.camera;
+    shadow += other.shadow;
+    indirect += other.indirect;
+    return *this;
+  }
+};
 
 enum class RayKind : uint8_t { kCamera, kShadow, kIndirect };
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/job.h"
-#include "render/frame/gather_point_statistics.h"
+#include "render/frame/frame_statistics.h"
 #include "render/frame/tile_order.h"
 #include "render/gather/indirect_paths.h"
 #include "render/gather/light_sharing.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/job.h"
-#include "render/frame/reflection_statistics.h"
+#include "render/frame/frame_statistics.h"
 #include "render/gather/gather_point_order.h"
 #include "render/gather/path_sharing.h"
 #include "render/gather/tile_samples.h"

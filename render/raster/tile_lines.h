@@ -8,11 +8,28 @@
 #include <span>
 #include <vector>
 
+#include "base/vector.h"
+#include "render/accel/beam.h"
 #include "render/raster/depth_grid.h"
 #include "render/raster/range.h"
-#include "render/raster/tile_line.h"
+#include "render/raster/tile_frame.h"
 
 namespace pelage {
+
+/// The line of sight of a camera sample, in the frame of its tile. At depth z, its x and y are a + z * b.
+struct TileLine {
+  V2f a{0}, b{0};
+  float time = 0;       ///< shutter time in [0, 1]
+  uint32_t random = 0;  ///< Ray::random of the sample
+};
+
+/// The primitive that a line meets first.
+struct TileWinner {
+  static constexpr uint32_t kNothing = ~0u;     ///< value of `chunk`: the line meets nothing
+  static constexpr uint32_t kTraced = ~0u - 1;  ///< value of `chunk`: drawing cannot decide; trace a ray
+
+  uint32_t chunk = kNothing, primitive = 0;
+};
 
 /// The lines of sight of all camera samples of a tile, sorted for rasterising, each with the primitive that
 /// it meets first, among those drawn so far.
@@ -109,6 +126,24 @@ class TileLines {
   bool has_lens_ = false;
   Range offsets_[2], slopes_[2];  // of all lines
   DepthGrid grid_;
+};
+
+/// The region that contains all lines of a tile between two depths, bounded by planes on four sides.
+class TileBeam {
+ public:
+  /// The region contains the lines at depths `first` <= `last`. `near`: min depth at which lines start.
+  TileBeam(const TileFrame& frame, const TileLines& lines, float near, float first, float last);
+
+  const Beam& beam() const { return beam_; }
+
+ private:
+  struct Side {
+    int axis = 0;
+    float sign = 1;  ///< 1 if the inside has larger coordinates than the plane, else -1
+    float offset = 0, slope = 0;
+  };
+  std::array<Side, 4> sides_;
+  Beam beam_;
 };
 
 }  // namespace pelage

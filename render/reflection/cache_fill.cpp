@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/memory_budget.h"
-#include "render/reflection/cache_rounds.h"
+#include "render/reflection/cache_plan.h"
 
 namespace pelage {
 namespace {

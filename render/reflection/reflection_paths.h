@@ -8,7 +8,6 @@
 #include "render/frame/tile_order.h"
 #include "render/path/path_walk.h"
 #include "render/reflection/cell_keys.h"
-#include "render/reflection/cell_range.h"
 #include "render/reflection/reflection_table.h"
 
 namespace pelage {

@@ -7,7 +7,7 @@
 
 #include "procedurals/bounds/procedural.h"
 #include "world/frame_coats.h"
-#include "world/leaf_range.h"
+#include "world/hair_arguments.h"
 
 namespace pelage {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/camera_move.h"
+#include "view/view_control.h"
 
 namespace pelage {
 

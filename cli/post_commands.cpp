@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/post_frames.h"
-
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "cli/commands.h"
 #include "cli/output_files.h"
+#include "cli/run.h"
+#include "post/band_job.h"
+#include "post/blur_file.h"
+#include "post/stereo_file.h"
 #include "world/frames.h"
 
 namespace pelage {
 namespace {
+
+/// Processes one picture: reads the file `input` and writes the file `output`.
+using PostWork = std::function<PostReport(const std::string& input, const std::string& output, Run& run)>;
 
 void check_names(const Options& options, const FrameList& frames) {
   if (std::filesystem::path(options.output).extension() != ".exr") {
@@ -29,8 +36,10 @@ void check_names(const Options& options, const FrameList& frames) {
   }
 }
 
-}  // namespace
-
+/// Calls `work` for every frame of `--frames`, with the frame number inserted in the names of input and
+/// output. Without `--frames`, calls `work` once, with the names as they were given. Prints a line about each
+/// file that was written. Returns the exit code of the process. Throws Error (kArguments) when the names do
+/// not fit the frames or the output is not an .exr file. Passes on exceptions of `work`.
 int run_post_frames(const Options& options, const PostWork& work) {
   const FrameList frames = options.frames.empty() ? FrameList() : parse_frames(options.frames);
   check_names(options, frames);
@@ -59,6 +68,20 @@ int run_post_frames(const Options& options, const PostWork& work) {
   }
   run.finish(options);
   return 0;
+}
+
+}  // namespace
+
+int run_motion_blur(const Options& options) {
+  return run_post_frames(options, [&](const std::string& input, const std::string& output, Run& run) {
+    return blur_file(input, output, options.motion_blur, run.job());
+  });
+}
+
+int run_stereo(const Options& options) {
+  return run_post_frames(options, [&](const std::string& input, const std::string& output, Run& run) {
+    return stereo_file(input, output, options.stereo, run.job());
+  });
 }
 
 }  // namespace pelage

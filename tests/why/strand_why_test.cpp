@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "why/strand_places.h"
+#include "why/strand_why.h"
 
 #include <gtest/gtest.h>
 
