@@ -70,8 +70,9 @@ void add_why(CLI::App& app, Options& options, Texts& texts) {
       ->check(whole_number());
   why->add_option("Y", options.pixel_y, "Row of the pixel; 0 is the top")->required()->check(whole_number());
   why->add_flag("--json", options.json, "Print JSON");
-  why->add_option("-o,--output", options.output,
-                  "Picture to write (.png, .jpg): the surroundings of the pixel, with its strand drawn over")
+  why->add_option(
+         "-o,--output", options.output,
+         "Picture to write (.png, .jpg): the surroundings of the pixel, with its strand drawn over them")
       ->type_name("FILE.png");
   why->add_option("--frames", texts.frames, "Frame of the pixel (default: the scene's first)")
       ->type_name("FRAME");
@@ -114,7 +115,9 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("DIR");
   measure->add_option("--frames", texts.frames, "Frame to measure (default: the scene's first)")
       ->type_name("FRAME");
-  measure->add_option("--repeat", options.repeat, "Runs per variant; the median one counts (default: 3)")
+  measure
+      ->add_option("--repeat", options.repeat,
+                   "Runs per variant; the run with the median time is reported (default: 3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
