@@ -17,7 +17,7 @@
 #include "cli/number_checks.h"
 #include "cli/post_flags.h"
 #include "cli/rib_flags.h"
-#include "groom/curve_basis_names.h"
+#include "groom/strands/curve_basis_names.h"
 #include "lab/compare/fibre_oracle.h"
 #include "world/frames.h"
 
