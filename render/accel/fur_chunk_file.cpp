@@ -103,10 +103,7 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
 }
 
 FurChunkFile::FurChunkFile(StoredSections file)
-    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {
-  // The regions of a frame are processes that read the same chunks.
-  file_.keep_cached();
-}
+    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {}
 
 size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);
