@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "offsets";
+constexpr const char* kOffsetsKind = "offsets";
 
 /// Section 0; the leaves follow. Increment the version when the meaning of a leaf's bytes changes.
 struct Head {
@@ -31,15 +31,15 @@ bool fits(const FrozenLeaf& frozen, const CoatSource& source, const FollicleTree
 }  // namespace
 
 std::filesystem::path FrozenCoat::file(const ContentStore& store, const ContentHash& key) {
-  return store.file(kKind, key);
+  return store.file(kOffsetsKind, key);
 }
 
 std::optional<FrozenCoat> FrozenCoat::open(const ContentStore& store, const ContentHash& key,
                                            const CoatSource& source, const WarningSink& warn) {
-  std::optional<StoredFile> file = store.open(kKind, key, warn);
+  std::optional<StoredFile> file = store.open(kOffsetsKind, key, warn);
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FrozenCoat> {
-    warn(store.file(kKind, key).string() +
+    warn(store.file(kOffsetsKind, key).string() +
          ": damaged cache file: its strands do not match the groom; it is made again");
     return {};
   };
@@ -83,7 +83,7 @@ bool FrozenCoat::store(const ContentStore& store, const ContentHash& key,
   std::memcpy(first.data(), &head, sizeof(head));
   if (!reaches.empty())
     std::memcpy(first.data() + sizeof(head), reaches.data(), reaches.size() * sizeof(StrandReach));
-  ContentStore::Writer writer = store.writer(kKind, key);
+  ContentStore::Writer writer = store.writer(kOffsetsKind, key);
   writer.add(first);
   for (const std::vector<std::byte>& leaf : leaves) writer.add(leaf);
   return writer.commit(warn);

@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "layer";
+constexpr const char* kLayerKind = "layer";
 
 /// Properties of strands after quantisation, whose error applies to every point (groom/frozen_leaf.h).
 StrandReach quantised(StrandReach reach) {
@@ -86,7 +86,7 @@ ContentHash in_leaves(const ContentHash& hash, int leaf_strands) {
 }
 
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands) {
-  return store.file(kKind, in_leaves(stage, leaf_strands));
+  return store.file(kLayerKind, in_leaves(stage, leaf_strands));
 }
 
 bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const {
@@ -120,7 +120,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   for (size_t leaf = 0; leaf < leaf_count; ++leaf) result.reaches.push_back(source.reach(leaf));
   std::optional<StoredFile> layer;
   for (size_t i = frozen - 1; i > 0 && !layer; --i) {
-    layer = store.open(kKind, key(i - 1), warn);
+    layer = store.open(kLayerKind, key(i - 1), warn);
     if (layer && !resumes(*layer, result.reaches)) layer.reset();
     if (layer) result.resumed = i;
   }
@@ -130,7 +130,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   for (size_t i = result.resumed; i < frozen; ++i) {
     for (StrandReach& reach : result.reaches) reach = stack.reach(reach, i, i + 1);
     if (i + 1 == frozen) break;
-    writers.emplace_back(new ContentStore::Writer(store.writer(kKind, key(i))));
+    writers.emplace_back(new ContentStore::Writer(store.writer(kLayerKind, key(i))));
     writers.back()->add(std::span<const StrandReach>(result.reaches));
   }
   for (StrandReach& reach : result.reaches) reach = quantised(reach);

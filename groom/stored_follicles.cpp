@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "follicles";
+constexpr const char* kFolliclesKind = "follicles";
 
 // Sections: leaves; ids; faces; u and v. Ids ascend within a leaf: when no difference exceeds 65535,
 // differences are stored instead, 0 for the first of a leaf. Faces take 16 bits when the skin has no more.
@@ -50,7 +50,7 @@ bool good(const RootAddress& root, uint32_t faces) {
 }  // namespace
 
 std::filesystem::path follicle_file(const ContentStore& store, const ContentHash& key) {
-  return store.file(kKind, key);
+  return store.file(kFolliclesKind, key);
 }
 
 bool store_follicles(const ContentStore& store, const ContentHash& key, const FollicleTree& follicles,
@@ -75,7 +75,7 @@ bool store_follicles(const ContentStore& store, const ContentHash& key, const Fo
   const auto is_narrow = [](const std::vector<uint32_t>& values) {
     return std::all_of(values.begin(), values.end(), [](uint32_t v) { return v <= UINT16_MAX; });
   };
-  ContentStore::Writer writer = store.writer(kKind, key);
+  ContentStore::Writer writer = store.writer(kFolliclesKind, key);
   writer.add(std::span<const StoredLeaf>(leaves));
   if (is_narrow(steps)) {
     add_narrow(steps, writer);
@@ -93,10 +93,10 @@ bool store_follicles(const ContentStore& store, const ContentHash& key, const Fo
 
 std::optional<FollicleTree> stored_follicles(const ContentStore& store, const ContentHash& key,
                                              const SurfaceTopology* topology, const WarningSink& warn) {
-  const std::optional<StoredFile> file = store.open(kKind, key, warn);
+  const std::optional<StoredFile> file = store.open(kFolliclesKind, key, warn);
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FollicleTree> {
-    warn(store.file(kKind, key).string() +
+    warn(store.file(kFolliclesKind, key).string() +
          ": damaged cache file: its follicles do not match this skin; it is made again");
     return {};
   };

@@ -19,7 +19,7 @@ bool all_are(const Rows& rows, size_t count, float value) {
                      [value](float v) { return v == value; });
 }
 
-void append(const StrandRow& row, size_t count, std::vector<std::byte>& bytes) {
+void append_row(const StrandRow& row, size_t count, std::vector<std::byte>& bytes) {
   const auto from = std::as_bytes(std::span(row).first(count));
   bytes.insert(bytes.end(), from.begin(), from.end());
 }
@@ -38,17 +38,17 @@ void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes) {
   }
   const auto from = std::as_bytes(std::span(&header, 1));
   bytes.insert(bytes.end(), from.begin(), from.end());
-  append(batch.clump, n, bytes);
+  append_row(batch.clump, n, bytes);
   // Operators do not move point 0.
   for (size_t p = 1; p < batch.points.size(); ++p) {
-    for (const StrandRow& axis : batch.points[p].offset) append(axis, n, bytes);
+    for (const StrandRow& axis : batch.points[p].offset) append_row(axis, n, bytes);
   }
   if (header.has_radii) {
-    for (const StrandBatch::PointRows& point : batch.points) append(point.radius, n, bytes);
+    for (const StrandBatch::PointRows& point : batch.points) append_row(point.radius, n, bytes);
   }
   if (header.color_rows) {
     for (const VectorRow& color : batch.colors) {
-      for (const StrandRow& channel : color) append(channel, n, bytes);
+      for (const StrandRow& channel : color) append_row(channel, n, bytes);
     }
   }
 }

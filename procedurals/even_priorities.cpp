@@ -20,21 +20,21 @@ uint64_t cell(float place, uint32_t cells) {
 }
 
 /// The bits of x, each followed by `gap` zeros.
-uint64_t spread(uint64_t x, int gap) {
+uint64_t spread_bits(uint64_t x, int gap) {
   uint64_t result = 0;
   for (int bit = 0; bit < 20; ++bit) result |= (x >> bit & 1) << (bit * (gap + 1));
   return result;
 }
 
 /// Position along the curve.
-std::vector<uint64_t> positions(const Groom& groom) {
+std::vector<uint64_t> curve_positions(const Groom& groom) {
   const FollicleTree& follicles = groom.follicles();
   std::vector<uint64_t> along(follicles.size());
   if (follicles.has_roots()) {
     for (size_t f = 0; f < along.size(); ++f) {
       const RootAddress& root = follicles.root(f);
-      along[f] = uint64_t{root.face} << 32 | spread(cell(root.u, kOfFace), 1) |
-                 spread(cell(root.v, kOfFace), 1) << 1;
+      along[f] = uint64_t{root.face} << 32 | spread_bits(cell(root.u, kOfFace), 1) |
+                 spread_bits(cell(root.v, kOfFace), 1) << 1;
     }
     return along;
   }
@@ -45,7 +45,7 @@ std::vector<uint64_t> positions(const Groom& groom) {
   const float longest = std::max({size.x, size.y, size.z, 1e-30f});
   for (size_t f = 0; f < along.size(); ++f) {
     const V3f at = (groom.root(f, rest, 0).position - box.min) * (1 / longest);
-    for (int axis = 0; axis < 3; ++axis) along[f] |= spread(cell(at[axis], kOfBox), 2) << axis;
+    for (int axis = 0; axis < 3; ++axis) along[f] |= spread_bits(cell(at[axis], kOfBox), 2) << axis;
   }
   return along;
 }
@@ -64,7 +64,7 @@ EvenPriorities::EvenPriorities(const Groom& groom, MemoryLedger& ledger) {
   const auto count = static_cast<int64_t>(follicles.size());
   const MemoryCharge temporary = reserve(ledger, MemoryTag::kGrooms, count * kTemporaryBytes,
                                          "sorting the strands of a groom from a file");
-  const std::vector<uint64_t> along = positions(groom);
+  const std::vector<uint64_t> along = curve_positions(groom);
   std::vector<uint32_t> order(follicles.size());
   for (uint32_t f = 0; f < order.size(); ++f) order[f] = f;
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {

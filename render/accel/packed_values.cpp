@@ -8,14 +8,14 @@
 namespace pelage {
 namespace {
 
-constexpr float kSteps = 65535.0f;
+constexpr float kPackedSteps = 65535.0f;
 
 bool is_unit(float x) { return x >= 0.0f && x <= 1.0f; }
-uint32_t step_of(float x) { return static_cast<uint32_t>(std::lround(x * kSteps)); }
+uint32_t step_of(float x) { return static_cast<uint32_t>(std::lround(x * kPackedSteps)); }
 
 }  // namespace
 
-float packed_value(float x) { return is_unit(x) ? static_cast<float>(step_of(x)) / kSteps : x; }
+float packed_value(float x) { return is_unit(x) ? static_cast<float>(step_of(x)) / kPackedSteps : x; }
 
 Precision coarsest_precision(std::span<const float> values) {
   Precision precision = Precision::kUnorm8;

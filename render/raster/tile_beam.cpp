@@ -6,7 +6,7 @@
 namespace pelage {
 namespace {
 
-constexpr float kRounding = 0x1p-18f;
+constexpr float kBeamRounding = 0x1p-18f;
 
 }  // namespace
 
@@ -25,14 +25,14 @@ TileBeam::TileBeam(const TileFrame& frame, const TileLines& lines, float near, f
     side.axis = static_cast<int>(axis);
     side.sign = sign;
     side.slope = (to - from) / (last - first);
-    side.offset = from - side.slope * first - sign * kRounding * (reach + std::abs(from) + std::abs(to));
+    side.offset = from - side.slope * first - sign * kBeamRounding * (reach + std::abs(from) + std::abs(to));
     const V3f normal = sign * (frame.axes[axis] - side.slope * frame.axes[2]);
     beam_.sides[i] = {normal, -sign * side.offset - normal.dot(frame.origin)};
   }
   for (size_t axis = 0; axis < 2; ++axis)
     beam_.across[axis] = {frame.axes[axis], -frame.axes[axis].dot(frame.origin)};
   beam_.depth = {frame.axes[2], -frame.axes[2].dot(frame.origin)};
-  beam_.near = near - kRounding * reach;
+  beam_.near = near - kBeamRounding * reach;
 }
 
 }  // namespace pelage

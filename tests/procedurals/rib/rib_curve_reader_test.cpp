@@ -10,7 +10,7 @@
 #include "procedurals/rib/rib_curve_layout.h"
 #include "tests/procedurals/rib/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_curve_reader_test {
 namespace {
 
 using namespace rib_test;
@@ -218,4 +218,4 @@ TEST(RibCurveReader, WrongCountsAreErrorsWithPositions) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_curve_reader_test

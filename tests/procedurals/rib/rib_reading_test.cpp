@@ -8,7 +8,7 @@
 #include "procedurals/rib/rib_interpreter.h"
 #include "tests/procedurals/rib/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_reading_test {
 namespace {
 
 using namespace rib_test;
@@ -335,4 +335,4 @@ TEST(RibReading, TextBinaryAndCompressedFilesGiveTheSameStrands) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_reading_test

@@ -8,7 +8,7 @@
 #include "tests/render/film/film_picture.h"
 #include "tests/render/path/skin_ball_scene.h"
 
-namespace pelage {
+namespace pelage::occlusion_detail_picture_test {
 namespace {
 
 constexpr uint32_t kStrands = 3000;
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(Both, OcclusionDetailPicture,
                          });
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::occlusion_detail_picture_test

@@ -7,7 +7,7 @@
 
 #include "base/hash.h"
 
-namespace pelage {
+namespace pelage::reflection_slots_test {
 namespace {
 
 constexpr uint64_t kCells = 3000;
@@ -123,4 +123,4 @@ TEST(ReflectionSlots, AnEmptyTableHasNoCells) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::reflection_slots_test
