@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include <fcntl.h>
@@ -15,13 +20,75 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/lease.h"
-#include "base/shared_folders.h"
-#include "base/stored_file_format.h"
+#include "base/stored_file_layout.h"
 #include "base/temporary_file.h"
 
 namespace pelage {
 
 namespace format = stored_file_format;
+
+namespace {
+
+/// Name of an environment variable. Its value lists folders, separated by ':'. In these folders, cache files
+/// that other users wrote are accepted.
+constexpr const char* kSharedCachesVariable = "PELAGE_SHARED_CACHES";
+
+/// Returns whether the variable lists `folder` or a folder that contains it; both paths are compared without
+/// symbolic links. A scene cannot declare a folder as shared, because the scene may come from the very users
+/// whose files would then be trusted. The environment is set by the user or the farm.
+bool is_shared_folder(const std::filesystem::path& folder) {
+  const char* named = std::getenv(kSharedCachesVariable);
+  if (!named) return false;
+  std::error_code error;
+  const std::filesystem::path place = std::filesystem::canonical(folder, error);
+  if (error) return false;
+  std::istringstream list(named);
+  for (std::string name; std::getline(list, name, ':');) {
+    if (name.empty()) continue;
+    const std::filesystem::path shared = std::filesystem::canonical(name, error);
+    if (error) continue;
+    const auto [end, ignored] = std::mismatch(shared.begin(), shared.end(), place.begin(), place.end());
+    if (end == shared.end()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+StoredFile::StoredFile(const OpenFile& file) : file_(file) {
+  const std::filesystem::path& path = file.path();
+  const std::span<const std::byte> bytes = file_.bytes();
+  const StoredFileLayout layout =
+      StoredFileLayout::read(path, bytes.size(), [&](uint64_t offset, std::span<std::byte> out) {
+        std::memcpy(out.data(), bytes.data() + offset, out.size());
+      });
+  kind_ = layout.kind;
+  key_ = layout.key;
+  // The padding between parts must be zero, so that every byte of the file is verified.
+  uint64_t end = sizeof(format::Header);
+  const auto padded_to = [&](uint64_t next) {
+    if (next < end || next - end >= format::kAlignment) return false;
+    const auto gap = bytes.subspan(end, next - end);
+    return std::all_of(gap.begin(), gap.end(), [](std::byte b) { return b == std::byte{0}; });
+  };
+  for (const format::Section& section : layout.sections) {
+    if (!padded_to(section.offset)) refuse_stored_file(path, "unknown bytes between its sections");
+    end = section.offset + section.bytes;
+    sections_.push_back(bytes.subspan(section.offset, section.bytes));
+    if (content_hash(sections_.back()) != ContentHash{section.hash_low, section.hash_high})
+      refuse_stored_file(path, "its content does not match its checksum");
+  }
+  if (!padded_to(layout.table_offset)) refuse_stored_file(path, "unknown bytes between its sections");
+}
+
+bool is_stored_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  uint64_t magic = 0;
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(&magic), sizeof(magic));
+  return file.gcount() == sizeof(magic) && magic == format::kMagic;
+}
 
 namespace {
 

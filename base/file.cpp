@@ -3,17 +3,19 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/open_file.h"
 #include "base/temporary_file.h"
 
 namespace pelage {
-
 namespace {
 
 std::string reason() { return std::strerror(errno); }
@@ -34,6 +36,23 @@ struct Descriptor {
 };
 
 }  // namespace
+
+ContentHash file_hash(const std::filesystem::path& path) {
+  constexpr size_t kPiece = size_t(256) << 10;
+  const OpenFile file(path);
+  ContentHasher hasher;
+  std::vector<std::byte> piece(kPiece);
+  for (;;) {
+    const ssize_t read = ::read(file.descriptor(), piece.data(), piece.size());
+    if (read == 0) return hasher.digest();
+    if (read > 0) {
+      hasher.add_bytes(std::span(piece).first(static_cast<size_t>(read)));
+    } else if (errno != EINTR) {
+      throw Error(ErrorKind::kInput, {path.string(), 0, 0},
+                  std::string("cannot read: ") + std::strerror(errno));
+    }
+  }
+}
 
 std::string read_file(const std::filesystem::path& path, size_t limit) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/hash.h"
+
 namespace pelage {
 
 /// Returns the contents of a file. Throws Error (kInput) with the path when the file cannot be read, is not a
@@ -60,5 +62,10 @@ class AtomicFile {
 
 /// Writes a whole file through an AtomicFile. Throws Error (kFailed).
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Returns the content_hash() of all bytes of a file. Reads 256 KiB at a time, so the memory use does not
+/// depend on the size of the file. Throws Error (kInput) when the file cannot be read or is not a regular
+/// file.
+ContentHash file_hash(const std::filesystem::path& path);
 
 }  // namespace pelage

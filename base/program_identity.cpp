@@ -12,6 +12,10 @@
 #include "base/hash.h"
 #include "base/mapped_file.h"
 
+#if defined(__x86_64__) && defined(__GLIBC__)
+#include <sys/platform/x86.h>
+#endif
+
 namespace pelage {
 namespace {
 
@@ -85,10 +89,32 @@ int look_for(dl_phdr_info* object, size_t, void* data) {
 
 }  // namespace
 
+const char* instruction_set() {
+#if defined(__x86_64__) && defined(__GLIBC__)
+  // What the library uses, rather than what the processor has.
+  return CPU_FEATURE_ACTIVE(FMA) && CPU_FEATURE_ACTIVE(AVX2) ? "x86-64 FMA" : "x86-64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#else
+  return "unknown";
+#endif
+}
+
 std::string library_identity(std::string_view name) {
   Wanted wanted{name};
   ::dl_iterate_phdr(look_for, &wanted);
   return wanted.id;
+}
+
+std::string arithmetic_identity() {
+  std::string identity = __VERSION__;
+#ifdef __OPTIMIZE__
+  identity += " optimised";  // the compiler computes functions of constants itself
+#endif
+  // Only libraries that the program starts with: others are loaded with the module that reads textures, and
+  // the identity must not depend on whether one has been read.
+  for (const char* library : {"libm.so", "libosdCPU.so"}) identity += " " + library_identity(library);
+  return identity + " " + instruction_set();
 }
 
 std::string program_identity() {

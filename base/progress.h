@@ -36,4 +36,27 @@ class NoProgress final : public Progress {
   bool cancelled() const override { return false; }
 };
 
+/// Begins a stage of a Progress in its constructor and ends the stage in its destructor, also after an
+/// exception. If `worth_showing` is false, for example because the stage is short, reports nothing.
+class ProgressStage {
+ public:
+  ProgressStage(Progress& progress, std::string_view name, double total, bool worth_showing = true)
+      : progress_(progress), shown_(worth_showing) {
+    if (shown_) progress_.begin(name, total);
+  }
+  ~ProgressStage() {
+    if (shown_) progress_.end();
+  }
+  ProgressStage(const ProgressStage&) = delete;
+  ProgressStage& operator=(const ProgressStage&) = delete;
+
+  void advance(double amount) const {
+    if (shown_) progress_.advance(amount);
+  }
+
+ private:
+  Progress& progress_;
+  const bool shown_;
+};
+
 }  // namespace pelage

@@ -10,9 +10,17 @@
 namespace pelage {
 namespace {
 
+/// Adds a problem, unless the key is a removed one with its harmless value.
 void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems) {
   if (const KeyInfo* renamed = schema.find_renamed(entry.key)) {
     problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
+    return;
+  }
+  for (const Removed& removed : schema.removed()) {
+    if (removed.name != entry.key) continue;
+    const bool harmless = entry.value.is_scalar() && entry.value.text() == removed.harmless;
+    if (!harmless || removed.harmless.empty())
+      problems.add(entry.key_position, quote(entry.key) + " was removed: " + std::string(removed.advice));
     return;
   }
   const std::vector<std::string> names = schema.key_names();

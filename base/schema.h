@@ -40,6 +40,14 @@ namespace pelage {
 // of its type. base/value_readers.h has ValueReaders for numbers, strings, vectors, paths, enumerations,
 // lists and maps; other folders add more.
 
+/// A key or a value of a key that an earlier release had. Texts are literals.
+struct Removed {
+  std::string_view name;    ///< of the key, or the value
+  std::string_view advice;  ///< the end of "was removed: ..."
+  /// Value of a removed key that scenes may still set, because Pelage always does what it meant; "": none.
+  std::string_view harmless = {};
+};
+
 /// Constraints on a key's value, and its description in the manual. Texts are literals.
 struct KeyOptions {
   std::string_view unit = {};
@@ -50,6 +58,7 @@ struct KeyOptions {
   bool above_min = false;              ///< whether values must be greater than min, not equal to it
   std::string_view default_text = {};  ///< shown instead of the printed default, e.g. "see render"
   std::array<std::string_view, 2> old_names = {};  ///< names of this key in earlier releases, or ""
+  Removed removed = {};                            ///< value of an enumeration in earlier releases
 };
 
 class SchemaInfo;
@@ -104,6 +113,9 @@ class SchemaInfo {
   const KeyInfo* find(std::string_view name) const;
   /// Returns the key of which `old_name` is a former name, or nullptr.
   const KeyInfo* find_renamed(std::string_view old_name) const;
+  /// Adds a key that this table no longer has. A scene that sets it is told so.
+  void remove(const Removed& key) { removed_.push_back(key); }
+  const std::vector<Removed>& removed() const { return removed_; }
 
   /// Excerpt of a scene file that uses this block, with all enclosing keys. The manual prints it; a test
   /// parses it.
@@ -131,6 +143,7 @@ class SchemaInfo {
   std::string picture_;
   std::vector<KeyInfo> keys_;
   std::vector<Member> members_;  ///< one per key
+  std::vector<Removed> removed_;
 };
 
 /// Reads a T from a Value. Specialisations provide

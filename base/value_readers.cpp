@@ -270,12 +270,18 @@ std::string ValueReader<Rgb>::print(const Rgb& v) { return print_vector(v, 3); }
 
 namespace detail {
 
-bool read_enum(const Value& value, std::span<const char* const> names, int& out, Problems& problems) {
+bool read_enum(const Value& value, std::span<const char* const> names, const KeyOptions& options, int& out,
+               Problems& problems) {
   if (value.is_scalar()) {
     for (size_t i = 0; i < names.size(); ++i) {
       if (value.text() != names[i]) continue;
       out = static_cast<int>(i);
       return true;
+    }
+    if (value.text() == options.removed.name && !value.text().empty()) {
+      problems.add(value.position(),
+                   quote(value.text()) + " was removed: " + std::string(options.removed.advice));
+      return false;
     }
   }
   const std::vector<std::string> candidates(names.begin(), names.end());

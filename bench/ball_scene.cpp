@@ -6,8 +6,8 @@
 
 #include "bench/ball_chunks.h"
 #include "image/texture_library.h"
-#include "procedurals/fixed.h"
 #include "render/light/light_params.h"
+#include "tests/procedurals/fixed.h"
 
 namespace pelage {
 

@@ -6,7 +6,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "cli/number_checks.h"
-#include "groom/curve_basis_names.h"
+#include "groom/strands/curve_basis_names.h"
 
 namespace pelage {
 

@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int64_t kMebibyte = int64_t{1} << 20;
-// Room beyond the estimate, for what it does not count: pages of files, and frames that are not estimated.
+// Margin for memory that the estimate does not count: pages of files, and frames that are not estimated.
 constexpr double kReserve = 1.2;
 constexpr uint64_t kMergeBytes = 512 * kMebibyte;
 constexpr double kQueue_s = 60;  // time limit of a command of Slurm
@@ -136,8 +136,9 @@ SlurmParams slurm_params(const Options& options, const fs::path& folder, const R
 
 /// CPU seconds of the shot, roughly.
 struct ShotCost {
-  double whole_s = 0;     ///< if its frames were not divided
-  double repeated_s = 0;  ///< that regions add, at most: each starts up, measures boxes and grows all chunks
+  double whole_s = 0;  ///< if its frames were not divided
+  /// Max extra CPU seconds caused by regions, since each repeats start-up, bounding and growth.
+  double repeated_s = 0;
 };
 
 /// CPU time of reading a chunk from render.bvh.file, as a fraction of growing it (docs/lab/FARM.md).

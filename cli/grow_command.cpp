@@ -11,18 +11,53 @@
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
-#include "cli/grow_boxes.h"
 #include "cli/output_files.h"
 #include "cli/read_scene.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
-#include "groom/cache_report.h"
+#include "groom/cache/cache_report.h"
+#include "procedurals/bounds/bounding.h"
+#include "render/frame/frame_chunks.h"
+#include "world/assets.h"
 #include "world/compose.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
-
 namespace {
+
+/// Computes the boxes of chunks before rendering, so that a later render reads them instead of growing all
+/// fur for them. The boxes are stored in files beside the caches of the grooms.
+///
+/// For every frame of the scene, reads the stored boxes, grows the chunks whose boxes are missing, stores the
+/// new boxes, and reports on standard output. Skips coats without a cache. Does nothing if the bounding
+/// strategy of the scene does not measure strands. Boxes depend on the level of detail: the boxes are those
+/// for the detail that the scene requests. Returns false when cancelled.
+bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
+  const BoundingOptions bounding{.strategy = scene.render.bounds};
+  if (!measures_strands(bounding.strategy)) return true;
+  for (const int frame : scene.frames.frames) {
+    const double began = run.seconds();
+    const World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
+    const FrameChunks chunks(world.scene, run.job());
+    std::vector<const Procedural*> remembering;
+    for (const Procedural* leaf : chunks.leaves()) {
+      if (leaf->bounds_record()) remembering.push_back(leaf);
+    }
+    if (remembering.empty()) continue;
+    const bool reduced = std::any_of(world.scene.fur.begin(), world.scene.fur.end(),
+                                     [](const FurPart& part) { return part.lod.has_value(); });
+    BoundingCounts counts;
+    bound_chunks(bounding, remembering, run.job(), &counts);
+    if (run.display().cancelled()) return false;
+    const double seconds = run.seconds() - began;
+    run.statistics().stages_s["bound"] += seconds;
+    std::cout << fmt::format("frame {}: boxes of {} chunks{}, {} read from the cache, {:.2f} s\n", frame,
+                             remembering.size(), reduced ? " at reduced detail" : "", counts.remembered,
+                             seconds);
+  }
+  return true;
+}
 
 struct Growth {
   std::vector<Strands> leaves;

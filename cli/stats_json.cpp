@@ -103,11 +103,6 @@ std::string statistics_json(const Statistics& s) {
       {"shadow_candidates", s.frames.occlusion.candidates},
       {"shadow_candidates_proved", s.frames.occlusion.candidates_proved},
       {"rays_skipped_skin", s.frames.occlusion.rays_proved},
-      {"rays_skipped_learned", s.frames.occlusion.rays_ended},
-      {"rays_modelled", s.frames.occlusion.rays_modelled},
-      {"pilot_rays", s.frames.occlusion.pilot_rays},
-      {"rays_near", s.frames.trace.rays_near},
-      {"rays_far", s.frames.trace.rays_far},
       {"stages_s", stages_json(s)},
   };
   if (!s.process.timeline.empty()) {

@@ -27,9 +27,10 @@ endif()
 target_compile_features(pelage_options INTERFACE cxx_std_20)
 
 add_library(pelage_warnings INTERFACE)
-# GCC 12 warns of overlaps and overflows inside std::string + std::string where there are none.
+# GCC 12 warns of overlaps and overflows inside std::string + std::string, and of uninitialised memory, where there are
+# none.
 target_compile_options(pelage_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
-                       "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>"
+                       "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds;-Wno-maybe-uninitialized>"
                        $<$<BOOL:${PELAGE_WERROR}>:-Werror>)
 if(PELAGE_SANITIZE)
   target_compile_options(pelage_options INTERFACE -fsanitize=${PELAGE_SANITIZE})

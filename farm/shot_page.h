@@ -26,4 +26,9 @@ std::string shot_page(const ShotState& shot, const std::filesystem::path& folder
 /// Returns the last lines of the log of a task, for a message.
 std::string end_of_log(const std::filesystem::path& log);
 
+/// Writes a small PNG of an EXR picture, at most `width` pixels wide, as a screen shows it. Each pixel is the
+/// mean of the pixels that it covers. Reads a few rows at a time. Throws Error: kInput if the picture cannot
+/// be read or has no channels R, G and B, kFailed if the PNG cannot be written.
+void write_thumbnail(const std::filesystem::path& picture, const std::filesystem::path& png, int width);
+
 }  // namespace pelage

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "geom/packed_direction.h"
 
 namespace pelage {
 namespace {

@@ -13,14 +13,13 @@
 #include "geom/limit_surface.h"
 #include "geom/strand_counts.h"
 #include "geom/strands.h"
-#include "groom/follicles.h"
-#include "groom/groom_params.h"
+#include "groom/coat/groom_params.h"
+#include "groom/follicles/follicles.h"
 
 namespace pelage {
 
 class TextureLibrary;
 struct GroomCacheReport;
-struct GrowthStep;
 struct Job;
 
 /// A skin in the pose of a frame. It has one limit surface per motion key, and one tree over the tessellation
@@ -44,6 +43,12 @@ struct KeptStrands {
   std::span<const float> contrast;
 };
 
+/// A strand after one step of its growth, as Groom::grow_steps() returns it.
+struct GrowthStep {
+  std::string name;  ///< "follicle" before the first operator, otherwise the name of the operator
+  Strands strand;    ///< one strand with one motion key, in world space; at the last step, as grow() makes it
+};
+
 /// A coat on a skin: follicles and the operators that shape their strands.
 ///
 /// Operators that only read rest state run on the rest surface. The follicle frames carry the result to each
@@ -51,9 +56,9 @@ struct KeptStrands {
 /// operators after it, run on the posed strands of every motion key.
 ///
 /// With `cache:`, the result of all operators up to the one named by `freeze` is quantised
-/// (groom/frozen_leaf.h) and stored in files. Strands are then always grown from the quantised data, whether
-/// it was just computed or read from a file. Every strand is a pure function of the groom, the strand's id
-/// and the pose (law 1).
+/// (groom/cache/frozen_leaf.h) and stored in files. Strands are then always grown from the quantised data,
+/// whether it was just computed or read from a file. Every strand is a pure function of the groom, the
+/// strand's id and the pose (law 1).
 ///
 /// Strands of a file grow in the same way. Their points are the state before the first operator, their ids
 /// are their order in the file, and their roots are the nearest points of the rest skin.
@@ -77,12 +82,13 @@ class Groom {
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
-  /// Hash of everything that shapes the strands, including live operators and the version of the program.
+  /// Hash of everything that shapes the strands, including live operators and the versions of the code.
   /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;
   /// Store for data that is derived from the groom. Null for a groom without a cache.
   const ContentStore* store() const;
-  /// State of the cache when the groom was made (groom/cache_report.h). Null for a groom without a cache.
+  /// State of the cache when the groom was made (groom/cache/cache_report.h). Null for a groom without a
+  /// cache.
   const GroomCacheReport* cache_report() const;
   /// Counts of the repairs made to the strands of the file; zeros for a groom without a file.
   StrandRepairs repairs() const;
@@ -93,7 +99,7 @@ class Groom {
   /// much as growing every strand up to the last of these.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
-  /// Returns a strand after each step of its growth (groom/growth_steps.h), in the pose of the first motion
+  /// Returns a strand after each step of its growth, in the pose of the first motion
   /// key. Not for a groom with a cache, which keeps only the result of its frozen operators.
   std::vector<GrowthStep> grow_steps(size_t follicle, const PosedSkin& pose) const;
 

@@ -7,8 +7,8 @@
 #include "base/check.h"
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "groom/coat/strand_writer.h"
 #include "groom/groom_impl.h"
-#include "groom/strand_writer.h"
 
 namespace pelage {
 
@@ -68,12 +68,12 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
 }
 
 void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
-  const RestUse use = stack->rest_use(frozen_end, stack->size());
+  const RestUse use = stack->traits(frozen_end, stack->size()).rest_use;
   needs_rest_frames = !source.rest || use == RestUse::kFrames ||
-                      !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
+                      !stack->traits(frozen_end, std::max(frozen_end, stack->first_live())).attributes_only;
   if (needs_rest_frames || use == RestUse::kNone) return;
-  require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
-               "placing the strands of groom '" + name + "' at rest");
+  require_memory(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
+                 "placing the strands of groom '" + name + "' at rest");
   rest_positions.resize(source.follicles().size());
   job.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end; ++f) {
@@ -157,10 +157,10 @@ Strands Groom::grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept)
   const bool on_skin = g.source.rest != nullptr;
   const FollicleTree::Leaf& range = g.source.follicles().leaves()[leaf];
   PELAGE_CHECK(!on_skin || !pose.keys.empty());
-  PELAGE_CHECK(!g.stack->needs_closest_point() || pose.trees.size() == key_count(pose, on_skin));
+  PELAGE_CHECK(!g.stack->traits().needs_closest_point || pose.trees.size() == key_count(pose, on_skin));
 
   const size_t keys = key_count(pose, on_skin);
-  const std::optional<AttributeClass> colors = g.stack->colors();
+  const std::optional<AttributeClass> colors = g.stack->traits().colors;
   size_t end = range.end;
   if (kept) end = range.begin + (kept->strands.empty() ? 0 : kept->strands.back() + size_t(1));
   StrandWriter writer = kept ? StrandWriter(g.chosen(*kept, range.begin), keys, colors, on_skin)
@@ -192,6 +192,58 @@ Strands Groom::grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept)
 
 namespace {
 
+/// Returns the one strand of a posed batch.
+Strands strand_of(const CoatSource& source, const OperatorStack& stack, size_t follicle, float length,
+                  const StrandBatch& batch) {
+  StrandWriter writer(1, 1, stack.traits().colors, source.rest != nullptr);
+  writer.expect(source.strand_points(follicle));
+  writer.write(batch, 0, 0, length);
+  writer.write_roots(batch, 0, source.follicles(), follicle);
+  StrandArrays arrays = writer.take();
+  if (source.imported) arrays.basis = source.imported->basis();
+  return Strands(std::move(arrays));
+}
+
+}  // namespace
+
+std::vector<GrowthStep> Groom::grow_steps(size_t follicle, const PosedSkin& pose) const {
+  const Impl& g = *impl_;
+  const OperatorStack& stack = *g.stack;
+  PELAGE_CHECK(!g.frozen);
+  PELAGE_CHECK(!stack.traits().needs_closest_point || !pose.trees.empty());
+  const auto batch = std::make_unique<StrandBatch>();
+  batch->count = 1;
+  if (const std::optional<AttributeClass> colors = stack.traits().colors) {
+    const auto points = static_cast<size_t>(g.source.strand_points(follicle));
+    batch->colors.resize(*colors == AttributeClass::kPerPoint ? points : 1);
+  }
+  const auto posed = [&] {
+    auto copy = std::make_unique<StrandBatch>(*batch);
+    g.stand(*copy, follicle, pose, 0);
+    carry_to_pose(*copy, pose.scale);
+    return copy;
+  };
+  std::vector<GrowthStep> steps;
+  const auto add = [&](std::string name, const StrandBatch& now) {
+    steps.push_back({std::move(name), strand_of(g.source, stack, follicle, pose.length, now)});
+  };
+  const auto name_of = [&](size_t i) { return std::string(stack.operators()[i]->traits().name); };
+  g.source.start(*batch, follicle);
+  add("follicle", *posed());
+  for (size_t i = 0; i < stack.first_live(); ++i) {
+    stack.apply(i, i + 1, *batch);
+    add(name_of(i), *posed());
+  }
+  const auto live = posed();
+  for (size_t i = stack.first_live(); i < stack.size(); ++i) {
+    stack.apply(i, i + 1, *live);
+    add(name_of(i), *live);
+  }
+  return steps;
+}
+
+namespace {
+
 FollicleTree::Leaf first_of(const FollicleTree::Leaf& leaf, size_t count) {
   FollicleTree::Leaf part = leaf;
   if (count < leaf.end - leaf.begin) part.end = leaf.begin + static_cast<uint32_t>(count);
@@ -202,7 +254,7 @@ FollicleTree::Leaf first_of(const FollicleTree::Leaf& leaf, size_t count) {
 
 StrandCounts Groom::counts(size_t leaf, size_t count) const {
   const CoatSource& source = impl_->source;
-  const std::optional<AttributeClass> colors = impl_->stack->colors();
+  const std::optional<AttributeClass> colors = impl_->stack->traits().colors;
   const FollicleTree::Leaf range = first_of(source.follicles().leaves()[leaf], count);
   StrandCounts counts;
   counts.strands = range.end - range.begin;
@@ -210,14 +262,12 @@ StrandCounts Groom::counts(size_t leaf, size_t count) const {
     for (size_t f = range.begin; f < range.end; ++f) {
       const auto points = static_cast<uint32_t>(source.strand_points(f));
       counts.points += points;
-      counts.longest = std::max<size_t>(counts.longest, points);
       counts.segments += segment_count(source.imported->basis(), points);
     }
     counts.attribute_floats =
         source.imported->attribute_floats(range.begin, range.end, colors ? "color" : "");
   } else {
     counts.points = counts.strands * static_cast<size_t>(source.points);
-    counts.longest = static_cast<size_t>(source.points);
     counts.segments = counts.strands * static_cast<size_t>(source.points - 1);
   }
   if (colors) {

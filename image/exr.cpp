@@ -16,7 +16,6 @@
 #include "image/exr_errors.h"
 #include "image/exr_file.h"
 #include "image/exr_header.h"
-#include "image/exr_writing.h"
 
 namespace pelage {
 namespace {

@@ -2,13 +2,18 @@
 #include "image/exr_file.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
@@ -22,11 +27,42 @@
 #include "image/exr_check.h"
 #include "image/exr_errors.h"
 #include "image/exr_header.h"
-#include "image/exr_stream.h"
-#include "image/exr_writing.h"
 
 namespace pelage {
 namespace {
+
+/// Lets OpenEXR write to an AtomicFile without an intermediate buffer. Also stores the exception of the first
+/// failed write, because OpenEXR writes its table of rows in a destructor that swallows exceptions.
+class ExrStream final : public Imf::OStream {
+ public:
+  explicit ExrStream(AtomicFile& file) : OStream(file.temporary_path().c_str()), file_(file) {}
+
+  void write(const char bytes[], int count) override;
+  uint64_t tellp() override { return place_; }
+  void seekp(uint64_t place) override { place_ = place; }
+
+  /// Throws the exception of the first failed write, if any.
+  void check() const;
+
+ private:
+  AtomicFile& file_;
+  uint64_t place_ = 0;
+  std::exception_ptr failure_;
+};
+
+void ExrStream::write(const char bytes[], int count) {
+  try {
+    file_.write_at(place_, std::as_bytes(std::span(bytes, static_cast<size_t>(count))));
+  } catch (...) {
+    if (!failure_) failure_ = std::current_exception();
+    throw;
+  }
+  place_ += static_cast<uint64_t>(count);
+}
+
+void ExrStream::check() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
 
 /// OpenEXR's own threads, one pool per process. None under the thread sanitizer, because they are not
 /// instrumented.

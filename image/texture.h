@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "base/vector.h"
-#include "image/image.h"
 #include "image/texel_decoder.h"
 #include "image/texel_store.h"
 
 namespace pelage {
+
+/// An image of linear floating-point pixels. Rows run from the top; the channels of a pixel are adjacent.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<float> pixels;  ///< width * height * channels values
+
+  const float* at(int x, int y) const {
+    return &pixels[(static_cast<size_t>(y) * width + x) * static_cast<size_t>(channels)];
+  }
+  float* at(int x, int y) { return const_cast<float*>(static_cast<const Image*>(this)->at(x, y)); }
+  size_t bytes() const { return pixels.size() * sizeof(float); }
+};
 
 /// An image that is looked up by texture coordinates. u points right and v points up; the lower left corner
 /// of the image is (0, 0), the upper right one (1, 1). The image repeats outside this range. Lookups give the

@@ -5,15 +5,20 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <set>
+#include <string>
+#include <system_error>
 
 #include <Imath/half.h>
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/memory_sample.h"
-#include "image/image_file_check.h"
+#include "base/value_readers.h"
+#include "image/exr_check.h"
 #include "image/image_reader.h"
 #include "image/plain_png.h"
 #include "image/radiance_hdr.h"
@@ -21,6 +26,35 @@
 
 namespace pelage {
 namespace {
+
+/// Throws Error (kInput) at the position in the scene that names the file. The message is the path, followed
+/// by `reason`.
+[[noreturn]] void fail_image(const AssetPath& asset, const std::string& reason) {
+  throw Error(ErrorKind::kInput, asset.position, asset.path.string() + ": " + reason);
+}
+
+/// Throws Error (kInput) with a clear message for problems that image libraries report poorly: a file that is
+/// missing, empty, truncated (PNG and JPEG), not a regular file or a git-lfs pointer, or damaged EXR headers.
+void check_image_file(const AssetPath& asset) {
+  std::error_code error;
+  const auto status = std::filesystem::status(asset.path, error);
+  if (!std::filesystem::exists(status)) fail_image(asset, "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) fail_image(asset, "is not a regular file");
+  std::ifstream stream(asset.path, std::ios::binary);
+  std::string beginning(64, '\0');
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  if (stream.gcount() == 0) fail_image(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
+  if (beginning.starts_with("version https://git-lfs"))
+    fail_image(asset, "is a git-lfs pointer, not the image itself");
+  if (is_cut_short(stream)) fail_image(asset, "is truncated");
+  if (beginning.starts_with("v/1\x01")) {
+    try {
+      check_exr_headers(asset.path);
+    } catch (const Error& damage) {
+      fail_image(asset, damage.problems().front().message);
+    }
+  }
+}
 
 /// Fractions of the ledger's limit.
 constexpr int64_t kInMemoryShare = 4, kTileCacheShare = 8;

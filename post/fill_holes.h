@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "post/flow_field.h"
+#include "post/warp.h"
 #include "post/work_buffer.h"
 
 namespace pelage {
@@ -34,5 +36,15 @@ inline constexpr uint8_t kExtended = 2;  ///< a sample beyond a side of the sour
 /// `filled` has one mark per sample of the row, and receives kFilled for each filled sample. Samples marked
 /// kFilled are not mirrored again.
 void fill_gaps(std::span<Sample> row, std::span<uint8_t> filled, int longest, RowEnds ends = {});
+
+/// Extends one row of a picture beyond each side where `cut` declares that the picture is cut off. The row of
+/// the field is mirrored at this side. Each mirrored pixel keeps its depth and motion. If a sky moves farther
+/// than a surface in front of it, mirrored sky appears behind this surface, as it would in a wider picture.
+///
+/// `line`: sample row `row` of the result, from column 0 on, after the warp to time 1. Each empty sample
+/// becomes the nearest of the mirrored pixels that move to it, and is marked kExtended in `filled`. Samples
+/// that no mirrored pixel reaches stay empty. `max`: max number of pixels to mirror at each side.
+void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int max, int row,
+                  std::span<Sample> line, std::span<uint8_t> filled);
 
 }  // namespace pelage

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "image/exr_file.h"
 #include "post/piece_headers.h"
 

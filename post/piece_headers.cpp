@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "post/uncovered.h"
 
 namespace pelage {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "post/box_resolve.h"
-#include "post/extend_sides.h"
+#include "post/fill_holes.h"
 #include "post/lanczos_resolve.h"
 
 namespace pelage {

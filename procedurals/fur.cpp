@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "base/program_identity.h"
 #include "geom/strand_merge.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "procedurals/thinned_fur.h"
 
 namespace pelage {
@@ -35,12 +34,9 @@ Box3f bound_of(const std::vector<std::unique_ptr<Procedural>>& chunks, BoundSpan
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin,
                              const std::optional<Simplification>& lod,
-                             std::shared_ptr<const CoatDirection> direction,
-                             std::shared_ptr<const EvenPriorities> priorities)
+                             std::shared_ptr<const CoatDirection> direction)
     : groom_(std::move(groom)), skin_(std::move(skin)) {
-  if (lod)
-    detail_ =
-        std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(direction), std::move(priorities));
+  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(direction));
   skin_->reserve_for_leaves(*groom_, detail_ != nullptr);
 }
 
@@ -123,7 +119,6 @@ ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
 
 std::optional<ContentHash> FurLeafProcedural::content() const {
   return ContentHasher()
-      .add(program_identity())
       .add(groom_->content_hash())
       .add(skin_->hash())
       .add(skin_->length())
@@ -135,13 +130,7 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  // The code that makes boxes is in this room: boxes of other builds of the program are not used.
-  record.key = ContentHasher()
-                   .add(program_identity())
-                   .add(groom_->content_hash())
-                   .add(skin_->hash())
-                   .add(skin_->length())
-                   .digest();
+  record.key = ContentHasher().add(groom_->content_hash()).add(skin_->hash()).add(skin_->length()).digest();
   record.index = leaf_;
   record.count = groom_->follicles().leaves().size();
   return record;

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "lod/fewer_points.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 
 namespace pelage {
 
@@ -91,7 +90,8 @@ Box3f ThinnedFurProcedural::bound(BoundSpan span) const {
 
 StrandCounts ThinnedFurProcedural::counts() const {
   StrandCounts sum;
-  for (size_t leaf = first_; leaf < end_; ++leaf) sum += detail_->counts(leaf);
+  for (size_t leaf = first_; leaf < end_; ++leaf)
+    sum += detail_->groom().counts(leaf, detail_->candidates(leaf));
   sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
   if (detail_->groom().grows_on_skin()) sum.attribute_floats += RootDetail::kFloats * sum.strands;
   return sum;
@@ -111,7 +111,7 @@ size_t ThinnedFurProcedural::temporary_bytes() const {
 /// Hash of all kept strands of the coat, however it is divided.
 ContentHash ThinnedFurProcedural::coat() const {
   return ContentHasher()
-      .add(program_identity())
+      .add(kVersion)
       .add(detail_->groom().content_hash())
       .add(skin_->hash())
       .add(skin_->length())

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "procedurals/coat_detail.h"
-#include "procedurals/procedural.h"
+#include "procedurals/bounds/procedural.h"
+#include "procedurals/detail/coat_detail.h"
 
 namespace pelage {
 
@@ -13,6 +13,10 @@ namespace pelage {
 /// consecutive leaves; for a distant character, of all leaves. Strands that are not kept are never grown.
 class ThinnedFurProcedural final : public Procedural {
  public:
+  /// Raised whenever the same simplification keeps or changes strands in another way (lod/ too).
+  /// tests/procedurals/stored_versions_test.cpp fails when strands change and the version does not.
+  static constexpr uint32_t kVersion = 1;
+
   /// Returns all leaves of the coat as chunks of consecutive leaves. A chunk has at most as many candidates
   /// (CoatDetail::candidates()) as the largest leaf has strands.
   static std::vector<std::unique_ptr<Procedural>> divide(std::shared_ptr<const CoatDetail> detail,

@@ -11,8 +11,8 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "base/process_usage.h"
-#include "image/exr_writing.h"
-#include "procedurals/bounds_file.h"
+#include "image/exr_file.h"
+#include "procedurals/bounds/bounds_file.h"
 #include "render/accel/resident_chunks.h"
 #include "render/film/film.h"
 #include "render/frame/frame_chunks.h"
@@ -110,7 +110,7 @@ void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Jo
     else
       unknown += n.segments;
   }
-  constexpr double kFineBytes = 0.25;  // per segment: FineBoxes
+  constexpr double kFineBytes = 0.25;  // per segment: SegmentCellBounds
   estimate.box_bytes += static_cast<int64_t>(kFineBytes * static_cast<double>(segments));
   estimate.measuring_bytes = static_cast<int64_t>(block) * job.workers.thread_count();
   estimate.measuring_cpu_s = fur.cpu_s * static_cast<double>(unknown) / std::max(1.0, double(segments));
@@ -161,7 +161,7 @@ double tracing_s(const RenderScene& scene, const PixelBox& pixels) {
 }  // namespace
 
 int64_t FrameEstimate::peak_bytes() const {
-  const int64_t tracing = chunk_bytes + shadows.held_bytes + shadows.learning_bytes;
+  const int64_t tracing = chunk_bytes + shadows.held_bytes;
   const int64_t rendering =
       box_bytes + std::max(measuring_bytes, buffer_bytes + std::max(tracing, shadows.making_bytes));
   return std::max(preparing_bytes,

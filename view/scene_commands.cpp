@@ -3,19 +3,117 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/vector.h"
 #include "scene/value_edits.h"
-#include "view/json_fields.h"
-#include "view/light_mix.h"
 #include "view/scene_edit.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
 namespace {
+
+/// A change of one light: its radiance is multiplied by 2^stops and by the tint.
+struct LightMix {
+  std::string light;
+  double stops = 0;
+  Rgb tint{1};
+};
+
+const LightParams& find_light(const SceneDescription& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& light : scene.lights.items) {
+    if (light.name == name) return light.value;
+    names.push_back(light.name);
+  }
+  throw Error(ErrorKind::kArguments, "no light " + quote(name) + suggest(name, names));
+}
+
+/// Returns the values that make these changes: the stops change `intensity`, the tint changes `radiance`. If
+/// `intensity` has keyframes, both change `radiance`. Throws Error (kArguments) with the nearest name for a
+/// light that the scene does not have.
+std::vector<ValueEdit> light_edits(const SceneDescription& scene, const std::vector<LightMix>& mixes) {
+  std::vector<ValueEdit> edits;
+  for (const LightMix& mix : mixes) {
+    const LightParams& light = find_light(scene, mix.light);
+    const auto [radiance, intensity] =
+        std::visit([](const auto& params) { return std::pair(params.radiance, params.intensity); }, light);
+    const double gain = std::exp2(mix.stops);
+    const bool animated = !intensity.is_constant();
+    if (mix.stops != 0 && !animated)
+      edits.push_back({{"lights", mix.light, "intensity"}, {gain * double{intensity.at(0)}}});
+    const Rgb factor = mix.tint * (animated ? static_cast<float>(gain) : 1.0f);
+    if (factor == Rgb(1)) continue;
+    const Rgb changed = radiance * factor;
+    edits.push_back({{"lights", mix.light, "radiance"}, {changed.x, changed.y, changed.z}});
+  }
+  for (const ValueEdit& edit : edits) {
+    for (const double number : edit.numbers) {
+      if (!(number <= double{std::numeric_limits<float>::max()}))
+        throw Error(ErrorKind::kArguments, "lights." + edit.path[1] + ": the light is too bright");
+    }
+  }
+  return edits;
+}
+
+// Readers for the parameters of commands. They throw Error (kArguments) with one line.
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
+
+/// Checks that a value is an object whose keys are all among `keys`. `name`: of the value, for messages.
+void check_object(const nlohmann::json& value, const std::string& name, std::span<const std::string> keys) {
+  if (!value.is_object()) refuse(name + ": expected an object");
+  for (const auto& [key, unused] : value.items()) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+      refuse(name + ": unknown key " + quote(key) + suggest(key, keys));
+  }
+}
+
+/// Reads a text as an object whose keys are all among `keys`.
+nlohmann::json read_object(const std::string& text, std::span<const std::string> keys) {
+  nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
+  if (value.is_discarded()) refuse("the request is not JSON");
+  check_object(value, "the request", keys);
+  return value;
+}
+
+/// Returns the numbers of a list of `count` finite numbers from `min` to `max`.
+std::vector<double> read_numbers(const nlohmann::json& value, const std::string& name, size_t count,
+                                 double min, double max) {
+  std::vector<double> numbers;
+  if (value.is_array()) {
+    for (const nlohmann::json& item : value) {
+      const double number = item.is_number() ? item.get<double>() : std::nan("");
+      if (number >= min && number <= max) numbers.push_back(number);
+    }
+  }
+  if (numbers.size() != count || value.size() != count)
+    refuse(fmt::format("{}: expected {} from {} to {}", name,
+                       count == 1 ? "a number" : fmt::format("{} numbers", count), min, max));
+  return numbers;
+}
+
+/// Returns a text that is one of `choices`.
+std::string read_choice(const nlohmann::json& object, const std::string& key,
+                        std::span<const std::string> choices) {
+  const auto found = object.find(key);
+  const std::string text = found != object.end() && found->is_string() ? found->get<std::string>() : "";
+  if (std::find(choices.begin(), choices.end(), text) == choices.end())
+    refuse(key + ": unknown value " + quote(text) + suggest(text, choices));
+  return text;
+}
 
 using nlohmann::json;
 
@@ -28,7 +126,7 @@ constexpr double kMaxPixel = 65536;  // as image.width
 struct Context {
   const std::filesystem::path& scene;
   const std::vector<Override>& overrides;
-  ViewDesk& desk;
+  ViewState& desk;
   bool may_write;
 };
 

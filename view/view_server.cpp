@@ -6,21 +6,59 @@
 #include <charconv>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <httplib.h>
 #include <netinet/in.h>
+#include <nlohmann/json.hpp>
 #include <sys/socket.h>
 
 #include "base/error.h"
 #include "view/page_files.h"
+#include "view/picture.h"
 #include "view/picture_bytes.h"
-#include "view/state_json.h"
+#include "view/view_state.h"
 
 namespace pelage {
 namespace {
+
+/// Returns state.json: the status, the version and size of the last picture, and the region to refine. Keys
+/// are in docs/VIEW.md.
+std::string state_json(const ViewStatus& status, const Picture* picture,
+                       const std::optional<PixelBox>& region) {
+  nlohmann::json state;
+  state["done"] = status.done();
+  state["error"] = status.error();
+  state["stage"] = status.stage;
+  state["progress"] = status.progress;
+  state["samples"] = status.mean_samples;
+  state["wanted_samples"] = status.wanted_samples;
+  state["strands_regrown"] = status.strands_regrown;
+  state["first_pixels_s"] = status.first_pixels_s;
+  state["render_s"] = status.render_s;
+  state["memory_bytes"] = status.memory_bytes;
+  state["edits"] = status.edits;
+  const auto list = [](const V3f& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const ViewCamera& camera = status.camera;
+  state["camera"] = {{"position", list(camera.position)},
+                     {"look_at", list(camera.look_at)},
+                     {"up", list(camera.up)},
+                     {"fov", camera.fov},
+                     {"moved", camera.moved},
+                     {"note", status.camera_note}};
+  state["region"] =
+      region ? nlohmann::json{region->x0, region->y0, region->x1, region->y1} : nlohmann::json();
+  state["layers"] = status.layers;
+  state["warnings"] = status.warnings;
+  state["version"] = picture ? picture->version : 0;
+  state["width"] = picture ? picture->width : 0;
+  state["height"] = picture ? picture->height : 0;
+  // File names may contain bytes that are not UTF-8.
+  return state.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 constexpr int kThreads = 16;
 constexpr size_t kPiece = 1 << 16;    // bytes sent at once
@@ -82,8 +120,8 @@ void end_connections(int port) {
 }  // namespace
 
 struct ViewServer::State {
-  State(ViewDesk& view_desk, const SceneCommands& scene_commands, RequestRules request_rules)
-      : desk(view_desk), commands(scene_commands), rules(std::move(request_rules)) {}
+  State(ViewState& view_state, const SceneCommands& scene_commands, RequestRules request_rules)
+      : desk(view_state), commands(scene_commands), rules(std::move(request_rules)) {}
 
   /// Answers a request whose body has not been read. Returns false for a command, whose body is to be read.
   bool answer(const httplib::Request& request, httplib::Response& response);
@@ -98,7 +136,7 @@ struct ViewServer::State {
   void send_exr(httplib::Response& response);
   void send_why(const httplib::Request& request, httplib::Response& response);
 
-  ViewDesk& desk;
+  ViewState& desk;
   const SceneCommands& commands;
   RequestRules rules;
   int port = 0;
@@ -217,7 +255,7 @@ void ViewServer::State::send_why(const httplib::Request& request, httplib::Respo
   send(std::move(answer.json), "application/json", response);
 }
 
-ViewServer::ViewServer(ViewDesk& desk, const SceneCommands& commands, const std::string& address, int port) {
+ViewServer::ViewServer(ViewState& desk, const SceneCommands& commands, const std::string& address, int port) {
   auto server = std::make_unique<State>(desk, commands, RequestRules(address, port, ""));
   httplib::Server& http = server->server;
   // Without SO_REUSEPORT, which the library sets by itself: two servers would share the port.

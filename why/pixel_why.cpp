@@ -1,14 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "why/pixel_why.h"
 
+#include <algorithm>
+#include <variant>
+
 #include <fmt/format.h>
 
+#include "base/check.h"
 #include "base/error.h"
+#include "render/accel/flush_denormals.h"
+#include "render/frame/frame_shading.h"
 #include "render/frame/skin_point.h"
+#include "render/frame/strand_fields.h"
 #include "why/kept_settings.h"
 
 namespace pelage {
 namespace {
+
+/// Explains a chunk of fur. Grows it if it is not in memory.
+ChunkWhy explain_chunk(const FrameGeometry& geometry, uint32_t chunk) {
+  const FlushDenormals flush;
+  const ResidentChunks& chunks = geometry.chunks();
+  ChunkWhy why;
+  why.index = chunk;
+  chunks.visit(chunk, 0, [&](const ChunkGeometry& content) {
+    why.strands = content.strand_count();
+    why.bytes = content.bytes();
+    return 0;
+  });
+  why.box = chunks.boxes().whole(chunk);
+  why.segment_cell_bounds = chunks.boxes().fine(chunk).count();
+  why.growths = geometry.growths(chunk);
+  return why;
+}
+
+/// Returns the light of pixel (x, y) of a film by light source, lobe and event, the brightest first. The
+/// terms add up to the pixel. The film must have event layers.
+std::vector<LightTerm> light_terms(const Film& film, const LightSet& lights, int x, int y) {
+  const FilmLayers& layers = film.layers();
+  PELAGE_CHECK(layers.events && layers.lights() == lights.size());
+  std::vector<LightTerm> terms;
+  for (size_t light = 0; light < lights.size(); ++light) {
+    const std::string name = lights.light(light).name();
+    for (int group = 0; group < layers.groups; ++group) {
+      const size_t all = layers.scattered(light, group);
+      const std::string lobe = layers.names[all].substr(name.size() + 1);
+      const Rgb direct = film.layer(x, y, layers.direct(light, group));
+      terms.push_back({name, lobe, "direct", direct});
+      terms.push_back({name, lobe, "indirect", film.layer(x, y, all) - direct});
+    }
+    if (lights.light(light).visible())
+      terms.push_back({name, "emission", "", film.layer(x, y, layers.emitted(light))});
+  }
+  std::stable_sort(terms.begin(), terms.end(), [](const LightTerm& a, const LightTerm& b) {
+    return luminance(a.radiance) > luminance(b.radiance);
+  });
+  return terms;
+}
+
+float opacity_at(const RenderScene& frame, const SeenSurface& surface) {
+  const FurPart& part = frame.fur[surface.hit.part];
+  const Strands& strand = surface.met.strand;
+  const FibreParams& fibre = *fibre_params(frame.materials[part.material]);
+  std::vector<float> opacities = point_opacities(fibre.opacity, strand, part);
+  if (opacities.empty()) return 1;
+  const StrandAttribute opacity{"opacity", AttributeClass::kPerPoint, 1, std::move(opacities)};
+  float value = 1;
+  interpolate_attribute(strand, opacity, 0, surface.hit.segment, surface.hit.u, &value);
+  return value;
+}
+
+/// Explains the material of a surface. `frame`: composed from `scene`.
+MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& frame,
+                             const SeenSurface& surface) {
+  const bool is_strand = surface.hit.kind == HitKind::kStrand;
+  const size_t index =
+      is_strand ? frame.fur[surface.hit.part].material : frame.skins[surface.hit.part].material;
+  const auto& item = scene.materials.items[index];
+  MaterialWhy why;
+  why.name = item.name;
+  std::visit(
+      [&]<class P>(const P& params) {
+        why.model = P::kTypeName;
+        why.parameters = P::schema().describe(params);
+      },
+      item.value);
+  why.color = FrameShading(frame).color(surface.hit, surface.met);
+  if (is_strand) why.opacity = opacity_at(frame, surface);
+  return why;
+}
 
 /// Gives the film of a frame all layers, and each pixel all its samples.
 void set_all_layers(RenderScene& scene) {

@@ -1,20 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/vector.h"
+#include "render/film/film.h"
+#include "render/frame/frame_geometry.h"
 #include "render/frame/frame_statistics.h"
-#include "why/chunk_why.h"
-#include "why/light_terms.h"
-#include "why/material_why.h"
+#include "render/light/light_set.h"
 #include "why/seen_surface.h"
 #include "why/strand_why.h"
+#include "world/scene_schema.h"
 #include "world/world.h"
 
 namespace pelage {
+
+/// The chunk of fur in which a strand is stored.
+struct ChunkWhy {
+  uint32_t index = 0;              ///< among all chunks of the frame
+  size_t strands = 0;              ///< strands of the chunk
+  size_t bytes = 0;                ///< memory of the chunk
+  Box3f box;                       ///< contains the chunk while the shutter is open; world space
+  size_t segment_cell_bounds = 0;  ///< count of boxes of cells of segments; 0 if it has none
+  uint32_t growths = 0;  ///< how often it grew for this frame; 0 if it was kept from an earlier frame
+};
+
+/// A part of the light of a pixel.
+struct LightTerm {
+  std::string light;  ///< name of the light source
+  std::string lobe;   ///< "diffuse" ..., of the first visible surface; "emission" for a light that is seen
+  std::string event;  ///< "direct" or "indirect"; empty for emission
+  Rgb radiance{0};
+};
+
+/// The material of a visible surface.
+struct MaterialWhy {
+  std::string name;
+  std::string model;
+  std::vector<ParameterText> parameters;  ///< of the scene file
+  Rgb color{0};                           ///< at the hit, tint of the character included
+  float opacity = 1;                      ///< at the hit
+};
 
 /// A skin that a pixel shows.
 struct SkinWhy {

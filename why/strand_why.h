@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/job.h"
+#include "geom/strands.h"
 #include "lod/simplification.h"
 #include "why/seen_surface.h"
-#include "why/strand_places.h"
 #include "world/assets.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
+
+/// A strand at its root, in its middle and at its tip, when the shutter opens. The middle is where the curve
+/// has as many segments before it as after it.
+struct StrandPlaces {
+  static constexpr std::array<const char*, 3> kNames{"root", "middle", "tip"};
+
+  std::array<V3f, 3> position;
+  std::array<float, 3> width;               ///< diameter
+  std::optional<std::array<Rgb, 3>> color;  ///< the attribute `color`, if the strand has one
+  float length = 0;                         ///< arc length
+};
+
+/// Measures strand 0 of a batch. It must have a segment.
+StrandPlaces strand_places(const Strands& strand);
 
 /// What one step of a groom does to a strand.
 struct StepWhy {

@@ -1,21 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/assets.h"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "base/file_stamp.h"
+#include "base/hash.h"
 #include "base/memory_budget.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
-#include "world/asset_keys.h"
 #include "world/crowds.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 #include "world/map_check.h"
-#include "world/skin_room.h"
+#include "world/scene_schema.h"
+#include "world/skin_memory_check.h"
 
 namespace pelage {
-
 namespace {
+
+// Hashes of everything from which an asset is made: its part of the scene, and the stamps of its files. Equal
+// keys mean equal assets within one process. Take a key before the files are read: if a file changes
+// meanwhile, the next key is different.
+
+void add_part(const SceneDescription& scene, const std::string& path, ContentHasher& hasher) {
+  const auto part = scene.parts.find(path);
+  hasher.add(path).add(part == scene.parts.end() ? ContentHash() : part->second);
+}
+
+void add_files(const std::vector<std::filesystem::path>& files, ContentHasher& hasher) {
+  for (const std::filesystem::path& file : files) {
+    const FileStamp stamp = file_stamp(file);
+    hasher.add(file.string()).add(stamp.inode).add(stamp.size).add(stamp.changed_ns);
+  }
+}
+
+ContentHash skin_key(const SceneDescription& scene, const std::string& name, const SkinParams& params) {
+  ContentHasher hasher;
+  add_part(scene, "skins." + name, hasher);
+  add_files({params.mesh.path}, hasher);
+  if (params.poses) add_files(pose_files(*params.poses), hasher);
+  return hasher.digest();
+}
+
+/// `skin`: the key of the skin on which the groom grows; anything for a groom without a skin.
+ContentHash groom_key(const SceneDescription& scene, const std::string& name, const GroomParams& params,
+                      const ContentHash& skin) {
+  ContentHasher hasher;
+  add_part(scene, "grooms." + name, hasher);
+  std::vector<std::filesystem::path> files;
+  add_groom_files(params, files);
+  add_files(files, hasher);
+  return hasher.add(skin).add(params.leaf_size()).digest();  // its size may depend on the memory limit
+}
 
 using SharedTopologies = std::vector<std::shared_ptr<const SurfaceTopology>>;
 
@@ -62,12 +101,12 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
 }
 
 /// If the strands of the scene cannot fit the memory limit, fails before the first is placed.
-void require_room_for_strands(const SceneDescription& scene, const Assets& assets, const Job& job) {
+void require_memory_for_strands(const SceneDescription& scene, const Assets& assets, const Job& job) {
   int64_t kept = 0;
   for (const auto& [name, position, params] : scene.grooms.items) {
     if (!params.strands || params.cache || assets.groom_keys.contains(name)) continue;
-    require_room(job.ledger, kept + follicle_temporary_bytes(*params.strands),
-                 fmt::format("placing {} strands of groom '{}'", *params.strands, name));
+    require_memory(job.ledger, kept + follicle_temporary_bytes(*params.strands),
+                   fmt::format("placing {} strands of groom '{}'", *params.strands, name));
     kept += follicle_bytes(*params.strands);
   }
 }
@@ -105,7 +144,7 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
 std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
   std::vector<int64_t> bytes;
   for (const auto& [name, position, params] : scene.characters.items)
-    bytes.push_back(drawn_character_bytes(scene, assets, name, params));
+    bytes.push_back(frame_character_bytes(scene, assets, name, params));
   return bytes;
 }
 
@@ -181,7 +220,7 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   assets.part_poses.clear();
   assets.materials.clear();
   const std::map<std::string, ContentHash> keys = drop_old(scene, assets);
-  require_room_for_strands(scene, assets, job);
+  require_memory_for_strands(scene, assets, job);
   update_skins(scene, keys, job, assets);
   check_maps(scene, assets.skins);
   for (const auto& [name, position, params] : scene.characters.items) {

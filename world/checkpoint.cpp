@@ -9,8 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/file_hash.h"
-#include "base/instruction_set.h"
+#include "base/file.h"
 #include "base/program_identity.h"
 #include "base/version.h"
 #include "world/asset_files.h"

@@ -3,16 +3,15 @@
 #include "world/compose.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
-#include "base/instruction_set.h"
+#include "base/program_identity.h"
 #include "base/version.h"
-#include "procedurals/detail_policy.h"
+#include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"
 #include "world/archives.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 
@@ -38,12 +37,10 @@ class Composer {
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
-    const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
-    const std::vector<bool> full_detail =
-        full_detail_characters(drawn, scene_.render.lod.full_detail, lod_view_.open.position, frame_);
-    for (size_t i = 0; i < drawn.size(); ++i) {
+    const std::vector<FrameCharacter> drawn = frame_characters(scene_, assets_);
+    for (const FrameCharacter& character : drawn) {
       job_.check_stop();
-      add(drawn[i], scene_.render.lod.enabled && !full_detail[i]);
+      add(character, scene_.render.lod.enabled);
     }
     world_.poses = pose_hasher_.digest();
   }
@@ -54,7 +51,7 @@ class Composer {
     return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
   }
 
-  void add(const DrawnCharacter& character, bool reduced) {
+  void add(const FrameCharacter& character, bool reduced) {
     Box3f box;
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, box);
@@ -63,11 +60,10 @@ class Composer {
     if (world_.scene.camera.may_see(box)) ++world_.counts.characters_in_frame;
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, bool reduced, Box3f& box) {
+  void add_part(const FrameCharacter& character, size_t index, bool reduced, Box3f& box) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
-    if (!scene_.render.shared_topology) pose.topology = unshared_topology(part.skin.name);
     for (const auto& groom : part.grooms.items) {
       if (assets_.grooms.at(groom.name)->needs_closest_point())
         pose.push_out_view = world_.scene.camera.view();
@@ -94,35 +90,9 @@ class Composer {
       fur.procedurals.push_back(std::make_unique<FurProcedural>(
           coat, posed, fur.lod, reduced ? detail_.direction(*coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
-      if (scene_.render.occlusion_detail) fur.distant = distant_fur(coat, posed, skin.rest, reduced);
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
     }
-  }
-
-  /// Returns the coat as secondary rays see it from afar.
-  DistantFur distant_fur(const std::shared_ptr<const Groom>& coat,
-                         const std::shared_ptr<const PosedCharacterSkin>& posed,
-                         const std::shared_ptr<const LimitSurface>& rest, bool reduced) {
-    DistantFur distant;
-    const auto found = detail_.distant(*coat, rest.get(), *posed, reduced);
-    if (!found) return distant;
-    auto fur = std::make_unique<FurProcedural>(
-        coat, posed, found->lod, reduced ? detail_.direction(*coat, rest) : nullptr, found->priorities);
-    distant.lod = found->lod;
-    // Where fewer strands are kept, they are farther apart.
-    distant.from = found->from / std::sqrt(fur->detail()->max_share() / found->lod.fraction());
-    distant.procedurals.push_back(std::move(fur));
-    return distant;
-  }
-
-  /// Used to measure the savings of shared topologies.
-  std::shared_ptr<const SurfaceTopology> unshared_topology(const std::string& skin) {
-    const SkinParams& params = scene_.skins.find(skin)->value;
-    auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
-                                            params.mesh.path.string());
-    charge(topology->bytes());
-    return topology;
   }
 
   void count(const Groom& groom, const PosedCharacterSkin& skin) {
@@ -155,8 +125,7 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   header.frames_per_second = scene.units.fps;
   header.meters_per_unit = scene.units.meters_per_unit;
   header.seed = scene.render.seed;
-  if (scene.render.adaptive)
-    header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
+  if (scene.render.adaptive) header.adaptive = "two-stage";
   header.program_version = version();
   header.instruction_set = instruction_set();
   header.scene_hash = scene.hash;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "procedurals/detail_policy.h"
-#include "world/drawn_characters.h"
+#include "procedurals/detail/detail_policy.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
@@ -20,9 +20,7 @@ class FramePoser {
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
-  const V3f& eye() const { return lod_view_.open.position; }
-
-  void add(const DrawnCharacter& character, bool reduced, FrameParts& parts) {
+  void add(const FrameCharacter& character, bool reduced, FrameParts& parts) {
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, parts);
   }
@@ -34,7 +32,7 @@ class FramePoser {
                : camera_.lod_view();
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, bool reduced, FrameParts& parts) {
+  void add_part(const FrameCharacter& character, size_t index, bool reduced, FrameParts& parts) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
@@ -95,15 +93,12 @@ Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, 
 
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
                       const std::set<std::string>& only) {
-  const std::vector<DrawnCharacter> drawn = drawn_characters(scene, assets);
+  const std::vector<FrameCharacter> drawn = frame_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
-  const std::vector<bool> full =
-      full_detail_characters(drawn, scene.render.lod.full_detail, poser.eye(), frame);
   FrameParts parts;
-  for (size_t i = 0; i < drawn.size(); ++i) {
+  for (const FrameCharacter& character : drawn) {
     job.check_stop();
-    if (only.empty() || only.contains(drawn[i].name))
-      poser.add(drawn[i], scene.render.lod.enabled && !full[i], parts);
+    if (only.empty() || only.contains(character.name)) poser.add(character, scene.render.lod.enabled, parts);
   }
   return parts;
 }

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/document.h"
-#include "world/leaf_range.h"
 
 namespace pelage {
+
+/// Consecutive leaves of a coat: first <= leaf < end.
+struct LeafRange {
+  size_t first = 0, end = 0;
+  size_t count() const { return end - first; }
+};
 
 /// The arguments of a procedural in a RIB file: "rat.yaml character=rat coat=under frame=3". They are divided
 /// at blanks. Single quotes keep blanks together: 'my scene.yaml' 'set=materials.fur={model: deon}'. Between

@@ -10,16 +10,16 @@
 #include "base/keyed.h"
 #include "base/value_readers.h"
 #include "geom/limit_surface.h"
-#include "groom/groom_params.h"
-#include "procedurals/crowd.h"
+#include "groom/coat/groom_params.h"
+#include "procedurals/crowd/crowd.h"
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_params.h"
 #include "render/material/material.h"
 #include "render/scene/render_params.h"
+#include "rib/document/rib_use.h"
 #include "scene/document.h"
 #include "world/frames.h"
-#include "world/rib_use.h"
 #include "world/scene_changes.h"
 
 namespace pelage {
@@ -90,7 +90,7 @@ struct CharacterParams {
   static const Schema<CharacterParams>& schema();
 };
 
-/// A RIB file, whose coats and skins are drawn as they are.
+/// A RIB file, whose coats and skins are rendered as they are.
 struct ArchiveParams {
   AssetPath rib;
   TransformParams transform;

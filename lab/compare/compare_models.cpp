@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "lab/compare/light_side.h"
 #include "render/fibre/fibre_material.h"
 

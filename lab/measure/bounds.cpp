@@ -43,7 +43,7 @@ Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup
   }
   if (none != results.outcomes.end()) {
     results.picture = screen_picture_of(runner.picture(none->variant), kPictureWidth,
-                                        "The frame, as every strategy but `user` renders it.");
+                                        "The frame, as every strategy renders it.");
   }
   Report report = bounds_report(results);
   return {std::move(report), std::move(results.outcomes)};

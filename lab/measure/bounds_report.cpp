@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kStrategies =
     "`none` grows everything before rendering; rays are tested against boxes measured on the grown strands. "
-    "`user` scales the conservative box about its centre by a factor. `conservative` bounds strands by skin "
-    "patch, strand length and the reach of each operator. `exact` grows each chunk once in a first pass and "
+    "`conservative` bounds strands by skin patch, strand length and the reach of each operator. `exact` "
+    "grows each chunk once in a first pass and "
     "keeps the boxes of its parts for the whole frame interval; `exact-shutter` keeps boxes only for the "
     "open shutter; `linear` keeps boxes that move linearly over the shutter.";
 constexpr const char* kTerms =
@@ -32,7 +32,7 @@ constexpr const char* kTerms =
 constexpr const char* kCold =
     "Caches: each run of a variant marked cold starts with an empty cache folder, computes the operator "
     "offsets and the boxes of its strategy, and stores both; the variant of the same name without the mark "
-    "reads them. `none`, `user` and `conservative` need no stored boxes and read the offsets that `exact, "
+    "reads them. `none` and `conservative` need no stored boxes and read the offsets that `exact, "
     "cold` stored.";
 constexpr const char* kUncached =
     "The scene has no operator cache: every run grows its strands with all operators and computes its boxes.";
@@ -181,8 +181,7 @@ std::vector<Outcome> plotted(const std::vector<Outcome>& outcomes) {
   std::vector<Outcome> result;
   for (const Outcome& outcome : outcomes) {
     const std::string& id = outcome.variant.id;
-    if (!id.starts_with("user") && (!id.ends_with("-cold") || id == std::string(kExactId) + "-cold"))
-      result.push_back(outcome);
+    if (!id.ends_with("-cold") || id == std::string(kExactId) + "-cold") result.push_back(outcome);
   }
   return result;
 }
@@ -225,8 +224,7 @@ Section switch_section(const Table& data, const BoundsResults& results) {
           {Paragraph{"render.compact_attributes stores every attribute of a chunk in the most compact class "
                      "(constant, uniform, varying, vertex) with three digits. In a picture of few samples a "
                      "pixel may differ where the last digit decides a random choice, such as the end of a "
-                     "path; its mean does not. render.shared_topology keeps one refiner and one set of patch "
-                     "tables for all characters of one topology. render.bounds: exact-shutter bounds strands "
+                     "path; its mean does not. render.bounds: exact-shutter bounds strands "
                      "over the open shutter instead of the whole frame interval."},
            std::move(table)}};
 }
@@ -235,8 +233,7 @@ Section picture_section(const BoundsResults& results) {
   Section section{"Pictures", {}};
   section.blocks.push_back(
       Paragraph{"A pixel is lost if any channel of any layer differs in any bit from the picture of `none`, "
-                "which grows everything before rendering, so that no box can hide anything. Only `user`, "
-                "whose boxes are guesses, may lose pixels."});
+                "which grows everything before rendering, so that no box can hide anything."});
   if (results.picture) {
     section.blocks.push_back(*results.picture);
     std::get<Picture>(section.blocks.back()).half = true;

@@ -6,7 +6,6 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kUserFactors[] = {"0.9", "0.7", "0.5"};
 constexpr const char* kTwoPass[] = {kExactId, kExactShutterId, "linear"};
 
 class VariantMaker {
@@ -50,11 +49,6 @@ BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup
   }
   // Variants without boxes reuse the offsets of the cold run of exact.
   v.run.push_back(maker.make(kNoneId, "none", "none", kExactId));
-  for (const std::string factor : kUserFactors) {
-    Variant variant = maker.make("user-" + factor, "user × " + factor, "user", kExactId);
-    variant.arguments.insert(variant.arguments.end(), {"--set", "render.bounds_factor=" + factor});
-    v.run.push_back(std::move(variant));
-  }
   v.run.push_back(maker.make(kConservativeId, "conservative", "conservative", kExactId));
   for (size_t i = v.run.size(); i-- > 0;) {
     if (!v.run[i].id.ends_with("-cold")) v.shown.insert(v.shown.begin(), v.run[i].id);
@@ -64,8 +58,7 @@ BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup
     if (maker.cached()) v.shown.push_back(strategy + "-cold");
     v.shown.push_back(strategy);
   }
-  v.switches = {without(maker, "wide-attributes", "attributes not compacted", "render.compact_attributes"),
-                without(maker, "own-topology", "topology not shared", "render.shared_topology")};
+  v.switches = {without(maker, "wide-attributes", "attributes not compacted", "render.compact_attributes")};
   for (const Switch& s : v.switches) v.run.push_back(s.off);
   return v;
 }

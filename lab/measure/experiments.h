@@ -20,10 +20,6 @@ struct Measured {
 // stop, and reports on the variants that were run. It throws Error (kFailed) when the folder of `setup`
 // cannot be written.
 
-/// Compares acceleration structures for fur. Reports memory, build time and page faults. For each kind of
-/// rays, also reports the rays per second and the box and segment tests per ray.
-Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
-
 /// Compares all bounding strategies. Reports time, memory, growth, box tests and pixels that differ.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
@@ -47,7 +43,8 @@ struct ShadingPlan {
 };
 
 /// Compares variants of the integrators `path` and `gather`. Reports the error as a function of CPU time, the
-/// bias, and the numbers of rays and knots (points on surfaces whose light `gather` shares among samples).
+/// bias, and the numbers of rays and gather points (points on surfaces whose light `gather` shares among
+/// samples).
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 
@@ -57,11 +54,11 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
                          Progress& progress);
 
 /// Compares reduced detail with full detail. `parts` holds names from kLodParts; empty: all parts.
-///   crowd   cost of a whole crowd in full detail, extrapolated from `full_detail` characters
+///   crowd   cost of a whole crowd
 ///   detail  strands, working set, time and error by criterion, distance, blur and focus
 ///   wedge   contact sheet: one row per distance, one column per quality
 ///   dolly   change of the picture while the LOD camera moves
-Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
-                     const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);
+Measured measure_lod(const SceneDescription& scene, const std::vector<std::string>& parts,
+                     const MeasureSetup& setup, Progress& progress);
 
 }  // namespace pelage

@@ -56,9 +56,9 @@ Settings both(Settings a, const Settings& b) {
 
 class LodSweep {
  public:
-  LodSweep(const SceneDescription& scene, const std::vector<int>& full_detail,
-           const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress)
-      : crowd(scene, setup, full_detail),
+  LodSweep(const SceneDescription& scene, const std::vector<std::string>& parts, const MeasureSetup& setup,
+           Progress& progress)
+      : crowd(scene, setup),
         scene_(scene),
         parts_(parts),
         places_(lod_places(scene)),
@@ -95,7 +95,7 @@ class LodSweep {
   }
   bool ended() const { return progress_.cancelled() || (!outcomes.empty() && !outcomes.back().succeeded()); }
   size_t count() const {
-    return (wanted(kCrowd) && !scene_.crowds.items.empty() ? crowd.max_variants() : 0) +
+    return (wanted(kCrowd) && !scene_.crowds.items.empty() ? LodCrowd::kVariants : 0) +
            (wanted(kDetail) ? 4 * places_.size() + 2 * lod_ideas().size() : 0) +
            (wanted(kWedge) ? kSheetRows * lod_qualities().size() : 0) +
            (wanted(kDolly) ? 2 * std::size(kDollyPlaces) : 0);
@@ -245,9 +245,9 @@ void add_detail(const LodSweep& sweep, Report& report) {
 
 }  // namespace
 
-Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
-                     const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress) {
-  LodSweep sweep(scene, full_detail, parts, setup, progress);
+Measured measure_lod(const SceneDescription& scene, const std::vector<std::string>& parts,
+                     const MeasureSetup& setup, Progress& progress) {
+  LodSweep sweep(scene, parts, setup, progress);
   sweep.run();
   Measured measured;
   measured.outcomes = std::move(sweep.outcomes);
@@ -280,7 +280,6 @@ Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full
   if (sweep.crowd.known()) {
     report.abstract = sweep.crowd.abstract();
     report.sections.push_back(sweep.crowd.section());
-    sweep.crowd.add_rows(report.data);
   }
   if (sweep.find("here-full-a")) add_detail(sweep, report);
   if (auto sheet = sheet_of(sweep)) report.sections.push_back({"Wedge", {std::move(*sheet)}});

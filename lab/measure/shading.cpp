@@ -81,13 +81,8 @@ void add_work(Columns& columns) {
     return drawn > 0 ? run.outcome.number("shadow_candidates_proved") / drawn : NAN;
   });
   columns.add_number("rays_proved", "rays proved", "rays_skipped_skin");
-  columns.add_number("rays_learned", "rays ended by learning", "rays_skipped_learned");
-  columns.add_number("rays_modelled", "rays modelled", "rays_modelled");
-  columns.add_number("rays_pilot", "pilot rays", "pilot_rays");
-  columns.add_number("rays_near", "near rays", "rays_near");
-  columns.add_number("rays_far", "far rays", "rays_far");
   columns.add_number("knots", "knots", "knots");
-  columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
+  columns.add("samples_per_gather_point", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");
     return knots > 0 ? run.outcome.number("knot_samples") / knots : NAN;
   });

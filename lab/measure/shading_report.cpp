@@ -107,8 +107,7 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
   for (const ShadingRun& run : all.runs) {
     if (!run.last || !run.outcome.succeeded()) continue;
     const ShadingCurve& curve = all.curves[*run.curve];
-    const bool approximates = curve.id == "fractional" || curve.id == "reject";
-    if (!curve.gather && curve.id != "path" && !approximates) continue;
+    if (!curve.gather && curve.id != "path") continue;
     if (curve.id == "gather") add(screen_picture_of(run.picture, kMaxWidth, run.outcome.variant.title + "."));
     std::vector<std::filesystem::path> pictures{run.picture};
     if (run.reuse) pictures.push_back(run.other);
@@ -156,16 +155,16 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
                                      "rel_mse_deviation", "block_rel_mse", "bias"},
                                     "Error of each picture.")}});
   std::vector<std::string> work{
-      "variant",     "cpu_s",        "rays_camera",   "rays_shadow", "rays_indirect", "candidates_proved",
-      "rays_proved", "rays_learned", "rays_modelled", "rays_pilot",  "rays_near",     "rays_far"};
+      "variant", "cpu_s", "rays_camera", "rays_shadow", "rays_indirect", "candidates_proved", "rays_proved"};
   for (const std::string& key : keys_with(report.data, "cpu_")) {
     if (key.ends_with("_s") && key != "cpu_s" && key != "cpu_least_s" && key != "cpu_most_s")
       work.push_back(key);
   }
   work.insert(work.end(),
-              {"knots", "samples_per_knot", "reflection_cells", "reflection_paths", "reflection_lookups",
-               "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
-  report.sections.push_back({"Rays, knots and memory", {table(is_measured, work, "Work of each run.")}});
+              {"knots", "samples_per_gather_point", "reflection_cells", "reflection_paths",
+               "reflection_lookups", "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
+  report.sections.push_back(
+      {"Rays, gather points and memory", {table(is_measured, work, "Work of each run.")}});
   report.sections.push_back(pictures_of(all, folder));
 }
 

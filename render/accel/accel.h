@@ -22,16 +22,6 @@ struct StrandStart {
   uint32_t first_segment = 0;  ///< index of the strand's first segment in the chunk
   uint32_t segment_count = 0;
   float place = 0;  ///< index of the segment in the strand + curve parameter in that segment
-  /// Whether the ray starts from a strand or skin that another ray has seen from afar (SightRange). Such a
-  /// ray sees all coats as from afar, even near its origin.
-  bool distant = false;
-
-  /// Returns the start of a ray that may hit the strand again.
-  StrandStart without_strand() const {
-    StrandStart start;
-    start.distant = distant;
-    return start;
-  }
 };
 
 struct Ray {

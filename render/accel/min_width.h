@@ -7,7 +7,6 @@
 
 #include "base/vector.h"
 #include "lod/lod_view.h"
-#include "lod/size.h"
 #include "render/sampling/sample_stream.h"
 
 namespace pelage {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/separable_material.h"
+#include "render/fibre/separable_bsdf.h"
 #include "render/material/fibre_params.h"
 
 namespace pelage {

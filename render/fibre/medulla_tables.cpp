@@ -5,15 +5,14 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/progress_stage.h"
+#include "base/program_identity.h"
+#include "base/progress.h"
 #include "render/fibre/fibre_tracer.h"
 
 namespace pelage {
 namespace {
 
 constexpr const char* kTablesKind = "medulla";
-/// Incremented whenever the same optics would give different tables.
-constexpr uint32_t kTablesVersion = 1;
 /// The last node of the inclination: hardly any light enters a fibre at larger angles.
 constexpr float kSteepest = 1.5f;
 
@@ -22,7 +21,14 @@ static_assert(std::is_trivially_copyable_v<Node> && sizeof(Node) % sizeof(float)
 
 ContentHash key_of(const YanOptics& o, int paths) {
   ContentHasher hasher;
-  hasher.add(kTablesVersion).add(paths).add(o.eta).add(o.kappa).add(o.sigma_ms).add(o.g).add(o.layers);
+  hasher.add(MedullaTables::kVersion)
+      .add(arithmetic_identity())
+      .add(paths)
+      .add(o.eta)
+      .add(o.kappa)
+      .add(o.sigma_ms)
+      .add(o.g)
+      .add(o.layers);
   return hasher.digest();
 }
 
@@ -155,7 +161,7 @@ float TabulatedScatter::density(const FibreAngles& a) const {
   return sum;
 }
 
-DrawnAngles TabulatedScatter::draw(const V3f& u) const {
+SampledAngles TabulatedScatter::draw(const V3f& u) const {
   int k = 0;
   float rest = u.z;
   while (k < 3 && rest >= weights_[k]) rest -= weights_[k++];

@@ -26,6 +26,10 @@ class MedullaTables {
   static constexpr int kAzimuths = 72, kSines = 40;        ///< numbers of cells of phi and sin(theta_i)
   static constexpr int kPaths = 40000;                     ///< number of paths traced for each node
 
+  /// Raised whenever the same optics give different tables.
+  /// tests/render/frame/stored_versions_test.cpp fails when tables change and the version does not.
+  static constexpr uint32_t kVersion = 1;
+
   /// Computes the tables, which takes seconds. Throws Error (kStopped) when the job is stopped.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Job& job,
                                                    int paths = kPaths);
@@ -58,7 +62,7 @@ class TabulatedScatter {
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);
 
   float density(const FibreAngles& a) const;
-  DrawnAngles draw(const V3f& u) const;
+  SampledAngles draw(const V3f& u) const;
   PathLengths lengths() const;
 
  private:

@@ -8,6 +8,8 @@
 #include "render/fibre/fibre_frame.h"
 #include "render/fibre/fibre_value.h"
 #include "render/fibre/longitudinal.h"
+#include "render/material/absorption.h"
+#include "render/material/fibre_params.h"
 
 namespace pelage {
 
@@ -76,7 +78,7 @@ class SeparableBsdf {
     return value;
   }
 
-  /// Draws a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
+  /// Samples a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
   /// peak. u.z selects the lobe; rescaled to [0, 1) within its lobe, it also selects the angle about the
   /// peak.
   V3f draw(const V3f& u) const {
@@ -104,6 +106,33 @@ class SeparableBsdf {
   std::array<float, kFibreLobes - 1> azimuth_;
   std::array<Rgb, kFibreLobes> amplitude_;
   std::array<float, kFibreLobes> sin_o_, cos_o_, choice_;
+};
+
+/// Constants of a material whose lobes are a SeparableBsdf. Models derive from this class and set the widths.
+template <class Azimuth>
+class SeparableMaterial {
+ public:
+  /// Returns the scattering of a fibre hit at `h`. The result refers to the material.
+  SeparableBsdf<Azimuth> at(const FibreFrame& frame, float h, const Rgb& color) const {
+    const FibreCrossing crossing(eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
+    const Rgb sigma = fibre_absorption(absorption_, by_color_, color);
+    return {widths_,
+            frame,
+            {crossing.exit_azimuth(0), crossing.exit_azimuth(1), crossing.exit_azimuth(2)},
+            attenuations(crossing.reflectance, transmittance(sigma, crossing.leg()))};
+  }
+
+ protected:
+  /// `color_roughness`: azimuthal roughness for the fit that converts colour to absorption.
+  SeparableMaterial(float eta, const AbsorptionParams& absorption, float color_roughness)
+      : eta_(eta), absorption_(absorption), by_color_(color_roughness) {}
+
+  LobeWidths<Azimuth> widths_;
+
+ private:
+  float eta_;
+  AbsorptionParams absorption_;
+  ColorToAbsorption by_color_;
 };
 
 }  // namespace pelage

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "base/value_readers.h"
+#include "base/vector.h"
 
 namespace pelage {
 
@@ -24,5 +26,20 @@ std::array<float, 3> filter_around(PixelFilter filter, float from_centre);
 /// Returns the integral of the filter along one axis, from minus filter_radius() to x, divided by the whole
 /// integral.
 double filter_integral(PixelFilter filter, double x);
+
+/// Samples the position of a camera ray in or around a pixel, with a density proportional to the pixel filter
+/// [Ernst06]. All samples of a pixel then have the same weight, and each sample counts for one pixel only.
+class FilterSampler {
+ public:
+  explicit FilterSampler(PixelFilter filter);
+
+  /// Returns the offset from the centre of the pixel, in pixels. `u`: two random numbers in [0, 1).
+  V2f offset(const V2f& u) const { return {axis(u.x), axis(u.y)}; }
+
+ private:
+  float axis(float u) const;
+
+  std::vector<float> inverse_;  // inverse of filter_integral() at equal steps of u; empty for the box filter
+};
 
 }  // namespace pelage

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "render/accel/accel.h"
-#include "render/film/filter_sampler.h"
+#include "render/film/pixel_filter.h"
 #include "render/sampling/sample_stream.h"
 #include "render/scene/render_scene.h"
 
@@ -13,7 +13,7 @@ namespace pelage {
 /// Index of the draw from SampleStream for each use of random numbers in a sample. The indices do not depend
 /// on the course of the path. Each vertex of the path has several draws; the draws of the first vertex start
 /// at kFirstVertex.
-enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
+enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
 struct CameraSample {
   Ray ray;

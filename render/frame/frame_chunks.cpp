@@ -46,16 +46,10 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job)
     : scene_(scene), bounds_(scene.render.bounds) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
-    const FurPart& fur = scene.fur[part];
-    const auto add = [&](const std::vector<std::unique_ptr<Procedural>>& procedurals, SightRange range) {
-      for (const auto& procedural : procedurals) {
-        collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
-        scales_.push_back(procedural->scale());
-        ranges_.push_back(range);
-      }
-    };
-    add(fur.procedurals, fur.distant.procedurals.empty() ? SightRange{} : SightRange{0, fur.distant.from});
-    add(fur.distant.procedurals, {fur.distant.from});
+    for (const auto& procedural : scene.fur[part].procedurals) {
+      collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
+      scales_.push_back(procedural->scale());
+    }
   }
   was_grown_ = std::make_unique<std::atomic<bool>[]>(leaves_.size());
   growths_ = std::make_unique<std::atomic<uint32_t>[]>(leaves_.size());
@@ -92,8 +86,8 @@ void FrameChunks::divide_skins(const Job& job) {
   const auto max = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
   const size_t largest = making[max];
   const uint64_t limit = scene_.render.memory.bytes;
-  require_room(job.ledger, static_cast<int64_t>(largest),
-               "tessellating the skin of " + scene_.skins[max].name);
+  require_memory(job.ledger, static_cast<int64_t>(largest),
+                 "tessellating the skin of " + scene_.skins[max].name);
   const size_t concurrency = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
   const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(concurrency * largest) <=
                                      static_cast<int64_t>(limit);
@@ -204,8 +198,7 @@ size_t FrameChunks::bytes() const {
   constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
   size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
-               scales_.capacity() * sizeof(scales_[0]) + ranges_.capacity() * sizeof(ranges_[0]) +
-               pieces_.capacity() * sizeof(pieces_[0]) +
+               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]) +
                leaves_.size() * (sizeof(was_grown_[0]) + sizeof(growths_[0]));
   if (stored_skins_) sum += stored_skins_->bytes();
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
@@ -236,8 +229,8 @@ FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   }
   if (leaves_.empty()) return plan;
   const auto one = static_cast<int64_t>(plan.block + strands);
-  require_room(job.ledger, std::max(one, static_cast<int64_t>(largest)),
-               "growing the largest chunk of " + scene_.fur[parts_[which]].name);
+  require_memory(job.ledger, std::max(one, static_cast<int64_t>(largest)),
+                 "growing the largest chunk of " + scene_.fur[parts_[which]].name);
   plan.concurrency = job.workers.thread_count();
   if (job.ledger.limit() > 0) {
     plan.concurrency = static_cast<int>(std::clamp<int64_t>(
@@ -271,8 +264,6 @@ std::optional<ContentHash> FrameChunks::content(uint32_t leaf) const {
   ContentHasher hasher;
   hasher.add("chunk of fur").add(*strands).add(ValueReader<Field>::print(fibre.opacity));
   hasher.add(scale.width).add(scale.anchor.x).add(scale.anchor.y).add(scale.anchor.z).add(scale.widest);
-  // The boxes of all other strategies contain the leaf.
-  if (render.bounds == BoundingStrategy::kUser) hasher.add(render.bounds).add(render.bounds_factor);
   hasher.add(render.compact_attributes);
   for (const std::string& attribute : fibre.color.attribute_names())
     hasher.add(attribute);  // checked in grow()
@@ -283,7 +274,6 @@ std::vector<ChunkBounds> FrameChunks::leaf_bounds(const std::vector<const Proced
                                                   const Job& job, BoundingCounts& counts) const {
   BoundingOptions options;
   options.strategy = bounds_;
-  options.factor = scene_.render.bounds_factor;
   options.in_one_part = in_fur_trees();
   std::optional<Workers> fewer;
   MemoryCharge blocks;

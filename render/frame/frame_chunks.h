@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/job.h"
-#include "procedurals/bounding.h"
+#include "procedurals/bounds/bounding.h"
 #include "render/accel/chunk_grower.h"
 #include "render/frame/stored_skins.h"
 #include "render/scene/render_scene.h"
@@ -35,9 +35,6 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
-  SightRange range(uint32_t chunk) const override {
-    return is_skin(chunk) ? SightRange{} : ranges_[coats_[chunk]];
-  }
   /// Returns the name of the chunk's coat or skin, such as "walker.under".
   std::string name(uint32_t chunk) const override;
 
@@ -64,7 +61,7 @@ class FrameChunks final : public ChunkGrower {
   /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
   /// Empty when unknown.
   std::optional<ContentHash> content(uint32_t leaf) const;
-  /// Makes the first growth of a leaf count as growing its strands again. Call before that growth.
+  /// Counts the next growth of this leaf as a regrowth. Call before its first growth.
   void mark_grown(uint32_t leaf) { was_grown_[leaf].store(true, std::memory_order_relaxed); }
   bool was_grown(uint32_t leaf) const { return was_grown_[leaf].load(std::memory_order_relaxed); }
   /// Returns how often grow() has grown a leaf.
@@ -78,7 +75,7 @@ class FrameChunks final : public ChunkGrower {
   bool opaque() const;
   /// Returns the count of strands that grow() has made so far. A strand that is grown again counts again.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
-  /// Returns the count of those that had been grown before.
+  /// Returns how many strands of strands_grown() had been grown before.
   int64_t strands_regrown() const { return strands_regrown_.load(std::memory_order_relaxed); }
 
  private:
@@ -102,7 +99,6 @@ class FrameChunks final : public ChunkGrower {
   std::vector<const Procedural*> leaves_;
   std::vector<uint32_t> parts_;      // index in RenderScene::fur, by leaf
   std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
-  std::vector<SightRange> ranges_;   // by coat
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;    // of the skins that this object has divided
   std::unique_ptr<const StoredSkins> stored_skins_;  // has all pieces; null: pieces_ has them

@@ -15,7 +15,6 @@
 #include "render/frame/skin_point.h"
 #include "render/frame/skin_shadows.h"
 #include "render/frame/strand_fields.h"
-#include "render/frame/visibility_table.h"
 
 namespace pelage {
 namespace {
@@ -105,8 +104,8 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const KnownOcclusion& known)
-    : scene_(scene), known_(known), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+FrameShading::FrameShading(const RenderScene& scene, const SkinShadows* balls)
+    : scene_(scene), balls_(balls), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -133,7 +132,7 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
 }
 
 float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
-  const std::optional<Simplification>& lod = detail(hit);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   if (!lod) return 1;
   if (const std::optional<RootDetail> detail = RootDetail::of(strand, 0)) return detail->share();
   return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
@@ -156,7 +155,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
   const FibreBsdf bsdf = fibre.material.at(at);
-  const std::optional<Simplification>& lod = detail(hit);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1) {
     RepresentedStrand represented = represented_strand(*lod, share, ray, hit, strand);
@@ -223,9 +222,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
   ScatterPoint point =
       hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand) : skin_point(ray, hit, met.triangle);
-  if (known_.balls) point.set_shadow(known_.balls->below(hit, met, ray.time));
-  if (known_.visibility)
-    point.set_learned(known_.visibility->find(point.position(), hit.kind == HitKind::kStrand));
+  if (balls_) point.set_shadow(balls_->below(hit, met, ray.time));
   return point;
 }
 

@@ -8,19 +8,20 @@
 #include "render/accel/accel.h"
 #include "render/fibre/fibre_material.h"
 #include "render/film/film.h"
-#include "render/frame/known_occlusion.h"
 #include "render/light/scatter_point.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
+
+class SkinShadows;
 
 /// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members, `met` is
 /// the geometry of the hit, which the accelerator has copied. Thread safety: const members may be called from
 /// any thread.
 class FrameShading {
  public:
-  /// `known`: stored in the points of scatter_point(). Must outlive this object.
-  explicit FrameShading(const RenderScene& scene, const KnownOcclusion& known = {});
+  /// `balls`: inside the skins, for the points of scatter_point(); null: none. Must outlive this object.
+  explicit FrameShading(const RenderScene& scene, const SkinShadows* balls = nullptr);
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
@@ -44,11 +45,6 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // empty: Lambert
   };
 
-  /// Returns the reduction of detail of the strand that was hit; empty: not reduced.
-  const std::optional<Simplification>& detail(const Hit& hit) const {
-    const FurPart& part = scene_.fur[hit.part];
-    return hit.start.distant ? part.distant.lod : part.lod;
-  }
   /// Returns the fraction of strands that level of detail keeps where this strand grows; 1 without level of
   /// detail.
   float kept_share(const Hit& hit, const Strands& strand) const;
@@ -59,7 +55,7 @@ class FrameShading {
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
   const RenderScene& scene_;
-  const KnownOcclusion known_;
+  const SkinShadows* const balls_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material
 };

@@ -8,9 +8,21 @@
 
 #include "base/process_usage.h"
 #include "render/accel/trace_counts.h"
-#include "render/frame/ray_statistics.h"
 
 namespace pelage {
+
+/// Counts of traced rays, by kind, for one thread, one frame or several frames.
+struct RayStatistics {
+  int64_t camera = 0, shadow = 0, indirect = 0;
+
+  int64_t total() const { return camera + shadow + indirect; }
+  RayStatistics& operator+=(const RayStatistics& other) {
+    camera += other.camera;
+    shadow += other.shadow;
+    indirect += other.indirect;
+    return *this;
+  }
+};
 
 enum class RayKind : uint8_t { kCamera, kShadow, kIndirect };
 
@@ -23,8 +35,8 @@ struct ThreadClocks {
 };
 
 /// Counts the rays of one thread by kind and estimates their CPU time by kind: measures one ray in kStride
-/// and multiplies the mean. Random numbers do not influence which rays are measured, and measuring changes no
-/// result.
+/// and multiplies the mean time by the count of rays. Random numbers do not influence which rays are
+/// measured, and measuring changes no result.
 ///
 /// Some rays do not enter the mean:
 /// - A ray that may have grown a chunk, because growth is reported separately. The next ray replaces it.

@@ -13,7 +13,6 @@ namespace pelage {
 namespace {
 
 const std::string kSkinsKind = "skins";
-constexpr uint32_t kVersion = 1;
 enum Section : size_t { kPieces, kFaces, kMeshes };
 enum MeshSection : size_t {
   kPositions,
@@ -52,7 +51,7 @@ std::vector<T> values(const StoredSections& file, size_t section) {
 std::optional<ContentHash> StoredSkins::key(const RenderScene& scene, size_t max_cost) {
   const View view = scene.camera.view();
   ContentHasher hasher;
-  hasher.add("skins").add(kVersion).add(program_identity()).add(static_cast<uint64_t>(max_cost));
+  hasher.add("skins").add(kVersion).add(arithmetic_identity()).add(static_cast<uint64_t>(max_cost));
   hasher.add(view.position.x).add(view.position.y).add(view.position.z);
   hasher.add(view.focal_pixels).add(view.near_distance);
   for (const SkinPart& part : scene.skins) {

@@ -8,10 +8,8 @@
 
 #include "render/accel/chunk_geometry.h"
 #include "render/raster/flat_pieces.h"
-#include "render/raster/grid_to_tile.h"
 #include "render/raster/line_runs.h"
 #include "render/raster/raster_kernels.h"
-#include "render/raster/tile_beam.h"
 #include "render/raster/tile_frame.h"
 #include "render/raster/tile_lines.h"
 #include "render/raster/tile_projection.h"

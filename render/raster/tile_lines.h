@@ -8,14 +8,31 @@
 #include <span>
 #include <vector>
 
+#include "base/vector.h"
+#include "render/accel/beam.h"
 #include "render/raster/depth_grid.h"
 #include "render/raster/range.h"
-#include "render/raster/tile_line.h"
+#include "render/raster/tile_frame.h"
 
 namespace pelage {
 
+/// The line of sight of a camera sample, in the frame of its tile. At depth z, its x and y are a + z * b.
+struct TileLine {
+  V2f a{0}, b{0};
+  float time = 0;       ///< shutter time in [0, 1]
+  uint32_t random = 0;  ///< Ray::random of the sample
+};
+
+/// The primitive that a line meets first.
+struct TileWinner {
+  static constexpr uint32_t kNothing = ~0u;     ///< value of `chunk`: the line meets nothing
+  static constexpr uint32_t kTraced = ~0u - 1;  ///< value of `chunk`: drawing cannot decide; trace a ray
+
+  uint32_t chunk = kNothing, primitive = 0;
+};
+
 /// The lines of sight of all camera samples of a tile, sorted for rasterising, each with the primitive that
-/// it meets first, as far as drawn.
+/// it meets first, among those drawn so far.
 ///
 /// Lines are sorted into groups of similar lens position. Within a group, they are sorted into a
 /// grid of cells, row by row. The lines that a shape may meet are therefore a few runs of consecutive lines.
@@ -42,7 +59,7 @@ class TileLines {
 
   /// Sorts lines. A slot is the index of a line in `lines`. `reference`: a depth at which the lines of a
   /// pixel are close together; may be infinity. `lens_parts`: how often the range of `a` is divided along
-  /// each axis. Each part has a group. Much fewer lines may get fewer groups.
+  /// each axis. Each part has a group. If there are few lines, there may be fewer groups.
   void assign(std::span<const TileLine> lines, float reference, int lens_parts = 1);
   static constexpr int kMaxLensParts = 8;
   /// Returns in how many parts to divide the range of `a` for shapes in this range of depths. More parts find
@@ -109,6 +126,24 @@ class TileLines {
   bool has_lens_ = false;
   Range offsets_[2], slopes_[2];  // of all lines
   DepthGrid grid_;
+};
+
+/// The region that contains all lines of a tile between two depths, bounded by planes on four sides.
+class TileBeam {
+ public:
+  /// The region contains the lines at depths `first` <= `last`. `near`: min depth at which lines start.
+  TileBeam(const TileFrame& frame, const TileLines& lines, float near, float first, float last);
+
+  const Beam& beam() const { return beam_; }
+
+ private:
+  struct Side {
+    int axis = 0;
+    float sign = 1;  ///< 1 if the inside has larger coordinates than the plane, else -1
+    float offset = 0, slope = 0;
+  };
+  std::array<Side, 4> sides_;
+  Beam beam_;
 };
 
 }  // namespace pelage

@@ -9,13 +9,20 @@
 
 #include "base/error.h"
 #include "base/memory_budget.h"
-#include "render/reflection/cache_rounds.h"
 #include "render/reflection/cell_keys.h"
 #include "render/reflection/reflection_slots.h"
 #include "render/reflection/reflection_table.h"
 
 namespace pelage {
 namespace {
+
+constexpr double kAtOnce = 4;  // paths per pixel and round, at most
+/// More samples add no more paths: cells have enough, and the picture must begin some time.
+constexpr int kMostSamples = 1024;
+
+double paths_per_pixel(const RenderParams& render) {
+  return double{render.gather.cache_paths} * std::min(render.samples, kMostSamples);
+}
 
 constexpr size_t kMostTiles = 32;  // whose paths are added up at once
 /// Max count of cells: per pixel, but at least kFewestCells and at most kMostCells. Beyond, the smallest
@@ -46,6 +53,14 @@ size_t max_cells(const RenderScene& scene) {
 }
 
 }  // namespace
+
+CacheRounds::CacheRounds(const RenderParams& render)
+    : count(static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)))),
+      paths(paths_per_pixel(render) / count) {}
+
+size_t CacheRounds::cells_of_tile() const {
+  return static_cast<size_t>(std::ceil(paths * kSide * kSide + 1)) * std::tuple_size_v<CellPath>;
+}
 
 CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   const size_t lights = scene.lights.size();

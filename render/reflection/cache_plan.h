@@ -6,9 +6,24 @@
 
 #include "base/ledger.h"
 #include "render/reflection/reflection_slots.h"
+#include "render/scene/render_params.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
+
+/// The order in which the paths that fill the reflection cache are traced: all tiles of the picture in
+/// several rounds. Each round traces a part of the paths of each pixel, so that the cells of a tile need
+/// little memory.
+struct CacheRounds {
+  static constexpr int kSide = 16;  ///< of a tile, in pixels
+
+  uint32_t count = 0;
+  double paths = 0;  ///< per pixel and round, on average
+
+  explicit CacheRounds(const RenderParams& render);
+  /// Returns the max count of cells that the paths of a tile add in one round.
+  size_t cells_of_tile() const;
+};
 
 /// How the reflection cache of a picture is filled within some memory. The plan changes no pixel: it decides
 /// only how many cells are filled at once, and so how often the paths are traced.
@@ -29,7 +44,7 @@ struct CachePlan {
   /// Returns the plan with this count of slices.
   static CachePlan with_slices(const RenderScene& scene, uint32_t slices);
   /// Returns the plan with the fewest slices that fits `render.gather.memory` or, by default, a quarter of
-  /// what the ledger leaves. If none does, the smallest plan. Throws Error (kMemory) if that exceeds
+  /// what the ledger leaves. If none fits, returns the smallest plan. Throws Error (kMemory) if that exceeds
   /// `render.gather.memory`.
   static CachePlan fitting(const RenderScene& scene, const MemoryLedger& ledger);
 };

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "base/hash.h"
-#include "lod/size.h"
+#include "lod/lod_view.h"
 #include "render/frame/rest_place.h"
 
 namespace pelage {

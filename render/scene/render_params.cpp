@@ -27,12 +27,8 @@ const Schema<LodParams>& LodParams::schema() {
         "camera", &LodParams::camera,
         {.help = "Camera that decides the level of detail by its view, shutter and lens. Use one camera for "
                  "both eyes of a stereo pair, or for all shots that show the same hair"});
-    s.key("full_detail_characters", &LodParams::full_detail,
-          {.help = "Number of furred characters that keep every strand. Pelage sorts all furred characters "
-                   "by distance from the level-of-detail camera and selects this many at even intervals. "
-                   "Use it to measure what level of detail saves",
-           .min = 0,
-           .old_names = {"in_full"}});
+    for (const char* name : {"full_detail_characters", "in_full"})
+      s.remove({name, "use `enabled: false` for full detail", "0"});
     add_simplification_keys(s);
     return s;
   }();
@@ -63,25 +59,18 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
   s.key("skin_ball", &RenderParams::skin_ball,
         {.help = "Balls inside closed skins that replace shadow rays. `exact`: a ray that a ball proves "
                  "blocked is not traced, and points on lights behind it are not chosen; the picture has "
-                 "the same mean. `fractional`: no shadow ray of a point with a ball is "
-                 "traced; the fur dims light by its path through a shell around the ball "
-                 "(approximate). `off`: every shadow ray is traced",
-         .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off"});
-  s.key(
-      "learned_visibility", &RenderParams::learned_visibility,
-      {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
-               "visible from where; shadow rays then choose parts that are probably hidden less "
-               "often, with the same mean of the picture. `reject`: never chosen if all pilot rays "
-               "were blocked, which darkens the picture. With `integrator: gather`, only indirect paths use "
-               "it"});
+                 "the same mean. `off`: every shadow ray is traced",
+         .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off",
+         .removed = {"fractional", "it made coats up to 12 % too bright; use exact"}});
+  s.remove({"learned_visibility",
+            "it took longer than it saved; `integrator: gather` learns which light arrives by itself",
+            "false"});
   s.key("screen_door", &RenderParams::screen_door,
         {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
                  "whose width is width times opacity. These rays then end at the first strand, which saves "
                  "time; the mean light stays the same. Camera rays still see semi-transparent strands"});
-  s.key("occlusion_detail", &RenderParams::occlusion_detail,
-        {.help = "From a distance on that depends on the coat, shadow rays and indirect rays see "
-                 "a fraction of the strands, widened to cover about as much (approximate). Camera rays still "
-                 "see all strands"});
+  s.remove(
+      {"occlusion_detail", "it gained too little for its growth and approximation; leave it out", "false"});
 }
 
 }  // namespace
@@ -146,22 +135,16 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key(
         "bounds", &RenderParams::bounds,
         {.help = "How Pelage finds the bounding boxes of chunks. Rays are tested against these boxes before "
-                 "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
-                 "boxes scaled "
-                 "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
+                 "strands grow. `none`: no boxes, all strands grow before rendering; `conservative`: boxes "
+                 "from the skin, strand lengths and operators; "
                  "`exact`: strands grow once beforehand and are measured over the whole time from half a "
                  "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
                  "only while the shutter is open; `linear`: "
-                 "as `exact-shutter`, with boxes that move with the strands"});
-    s.key("bounds_factor", &RenderParams::bounds_factor,
-          {.help = "Size of the boxes of `bounds: user` relative to the conservative ones. Below 1, strands "
-                   "may be lost",
-           .min = 0.01,
-           .max = 100});
+                 "as `exact-shutter`, with boxes that move with the strands",
+         .removed = {"user", "boxes that it made smaller could lose strands; use conservative or exact"}});
+    s.remove({"bounds_factor", "it belonged to `bounds: user`, which could lose strands", "1"});
     s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "on"});
-    s.key("shared_topology", &RenderParams::shared_topology,
-          {.help = "Characters with the same cage share its refinement and patches. Set it to false only to "
-                   "measure the saving"});
+    s.remove({"shared_topology", "characters with the same cage always share its refinement", "true"});
     return s;
   }();
   return table;

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/file_hash.h"
+#include "base/file.h"
 #include "base/mapped_file.h"
 #include "base/temporary_folder.h"
 

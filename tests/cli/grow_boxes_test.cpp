@@ -56,7 +56,7 @@ TEST_F(GrowBoxesTest, FramesAreMeasuredOnceAndRememberedThen) {
 }
 
 TEST_F(GrowBoxesTest, NothingIsMeasuredForStrategiesThatStateTheirBoxes) {
-  for (const char* strategy : {"none", "user", "conservative"}) {
+  for (const char* strategy : {"none", "conservative"}) {
     EXPECT_EQ(grow({{"render.bounds", strategy}}).find("boxes"), std::string::npos);
   }
   EXPECT_EQ(box_files(), 0u);

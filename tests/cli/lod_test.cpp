@@ -75,23 +75,6 @@ TEST_F(LodPictures, WhereEverythingIsKeptItIsAsIfThereWereNone) {
   expect_equal(off, render("on", kept));
 }
 
-// Six rats. If none keeps its full detail, the picture has reduced detail; if all do, it has full detail.
-// Otherwise each character has either full or reduced detail.
-TEST_F(LodPictures, SomeCharactersKeepEveryHair) {
-  const auto hairs = [&](const std::string& name) {
-    return RunStatistics::read(folder_.path() / (name + ".json"))->number("strands_generated");
-  };
-  const Override eager{"render.bounds", "none"};
-  expect_equal(render("none", {kOn, eager, {"render.lod.full_detail_characters", "0"}}),
-               render("reduced", {kOn, eager}));
-  expect_equal(render("six", {kOn, eager, {"render.lod.full_detail_characters", "6"}}),
-               render("whole", {kOff, eager}));
-  render("three", {kOn, eager, {"render.lod.full_detail_characters", "3"}});
-  EXPECT_LT(hairs("none"), 0.7 * hairs("six"));
-  // Half of them, near and far: half of what there is to save.
-  EXPECT_NEAR(hairs("three"), 0.5 * (hairs("none") + hairs("six")), 0.1 * (hairs("six") - hairs("none")));
-}
-
 TEST_F(LodPictures, ACameraOfItsOwnDecidesAlone) {
   const Override still{"render.lod.camera",
                        "{position: [0, 40, 0], look_at: [0, 0, -101], fov: 25, shutter: [-0.25, 0.25]}"};

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
-#include "farm/thumbnail.h"
 #include "image/exr.h"
 
 namespace pelage {

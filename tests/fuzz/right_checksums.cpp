@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/hash.h"
-#include "base/stored_file_format.h"
+#include "base/stored_file_layout.h"
 
 namespace pelage {
 

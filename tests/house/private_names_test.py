@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Several sources of a room are compiled as one. Private constants and types of the same name then fail to compile, but
+"""Several sources of a module are compiled as one. Private constants and types of the same name then fail to compile, but
 a private function of the same name is an overload, which a call in another source may pick by mistake."""
 import pathlib
 import re
@@ -14,7 +14,7 @@ LIST = r"^  {} (.*?)(?=^  [A-Z]|\))"
 
 
 def joined_sources(folder):
-    """Lists of sources of a room, or of its tests, that may be compiled together."""
+    """Lists of sources of a module, or of its tests, that may be compiled together."""
     cmake = (folder / "CMakeLists.txt").read_text()
     cmake = re.sub(r"^  (SOURCES|THREADED|STATISTICS)\n\s+", r"  \1 ", cmake, flags=re.M)
 
@@ -58,11 +58,11 @@ class PrivateNames(unittest.TestCase):
             (folder / "b.cpp").write_text(text.replace("namespace pelage", "namespace pelage::b_test"))
             self.assertEqual(list(shared_names(folder)), [])
 
-    def test_rooms(self):
-        rooms = [path.parent for path in sorted(ROOT.glob("*/CMakeLists.txt")) if path.parent.name not in ("tests", "bench", "build")]
-        self.assertGreater(len(rooms), 10)
-        problems = [problem for room in rooms + sorted(path.parent for path in ROOT.glob("tests/*/CMakeLists.txt"))
-                    for problem in shared_names(room)]
+    def test_modules(self):
+        modules = [path.parent for path in sorted(ROOT.glob("*/CMakeLists.txt")) if path.parent.name not in ("tests", "bench", "build")]
+        self.assertGreater(len(modules), 10)
+        problems = [problem for module in modules + sorted(path.parent for path in ROOT.glob("tests/*/CMakeLists.txt"))
+                    for problem in shared_names(module)]
         self.assertEqual(problems, [], "\n".join(problems))
 
 

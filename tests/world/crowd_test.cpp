@@ -5,10 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "procedurals/posed_character_skin.h"
+#include "procedurals/skin/posed_character_skin.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
 #include "world/compose.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
@@ -149,19 +150,16 @@ TEST_F(CrowdCompositionTest, OnlyWhatTheCameraSeesIsInTheFrame) {
   EXPECT_LT(half.counts.characters_in_frame, 15);
 }
 
-TEST_F(CrowdCompositionTest, SharingATopologyChangesNothingButMemory) {
-  const World shared = compose_frame(1, {crowd("seed: 2")});
-  const Strands a = shared.scene.fur[3].procedurals[0]->split()[0]->generate();
-  const int64_t shared_bytes = ledger_.current(MemoryTag::kSkins);
-  MemoryLedger other;
-  const SceneDescription scene =
-      load_scene(scene_.path("scene.yaml"),
-                 {crowd("seed: 2"), {"render.shared_topology", "false"}, {"camera.shutter", "[0, 0]"}});
-  const auto assets = load_assets(scene, QuietJob(2, other));
-  const World apart = compose(scene, *assets, 1, QuietJob(2, other));
-  EXPECT_EQ(a.arrays().points, apart.scene.fur[3].procedurals[0]->split()[0]->generate().arrays().points);
-  const auto topology = static_cast<int64_t>(assets->skins.at("cube").rest->topology().bytes());
-  EXPECT_GE(other.current(MemoryTag::kSkins), shared_bytes + 19 * topology);
+TEST_F(CrowdCompositionTest, AnimalsShareATopology) {
+  compose_frame(1, {crowd("seed: 2")});
+  const auto& shared = assets_->skins.at("cube").rest->shared_topology();
+  size_t animals = 0;
+  for (const FrameCharacter& drawn : frame_characters(description_, *assets_)) {
+    if (!drawn.member) continue;
+    ++animals;
+    EXPECT_EQ(pose_character(drawn, 0, *assets_, description_.camera, 1).topology, shared);
+  }
+  EXPECT_EQ(animals, 20u);
 }
 
 }  // namespace

@@ -72,25 +72,44 @@ class SceneSchema : public testing::Test {
 TEST_F(SceneSchema, OldNamesOfKeysMeanWhatTheyMeant) {
   const std::string lights = "lights:\n";
   const auto with = [&](const std::string& text) { return replaced(lights, text + lights); };
-  const std::string old_text = with("render: {lod: {in_full: 3, turned_away: false, least_share: 0.25}}\n");
+  const std::string old_text = with("render: {lod: {turned_away: false, least_share: 0.25}}\n");
   const SceneDescription before = load(old_text);
-  const SceneDescription now =
-      load(with("render: {lod: {full_detail_characters: 3, backfacing: false, min_fraction: 0.25}}\n"));
-  EXPECT_EQ(before.render.lod.full_detail, 3);
+  const SceneDescription now = load(with("render: {lod: {backfacing: false, min_fraction: 0.25}}\n"));
   EXPECT_FALSE(before.render.lod.back_facing);
   EXPECT_EQ(before.render.lod.min_share, 0.25f);
   EXPECT_EQ(before.hash, now.hash);
   EXPECT_TRUE(now.warnings.empty());
   const Lines lines = warnings(old_text);
-  ASSERT_EQ(lines.size(), 3u);
-  EXPECT_TRUE(lines[0].ends_with(":16: 'in_full' is now called 'full_detail_characters'")) << lines[0];
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_TRUE(lines[0].ends_with(":16: 'turned_away' is now called 'backfacing'")) << lines[0];
   EXPECT_EQ(warnings(kScene, {{"render.lod.turned_away", "false"}}),
             Lines{"--set render.lod.turned_away: 'turned_away' is now called 'backfacing'"});
-  const Lines both = problems(with("render: {lod: {in_full: 3, full_detail_characters: 4}}\n"));
+  const Lines both = problems(with("render: {lod: {turned_away: true, backfacing: false}}\n"));
   ASSERT_EQ(both.size(), 1u);
-  EXPECT_TRUE(
-      both[0].ends_with("'in_full' is the old name of 'full_detail_characters'; give only one of them"))
+  EXPECT_TRUE(both[0].ends_with("'turned_away' is the old name of 'backfacing'; give only one of them"))
       << both[0];
+}
+
+TEST_F(SceneSchema, RemovedKeysAreReadWhereTheyChangeNothing) {
+  const std::vector<Override> harmless{{"render.learned_visibility", "false"},
+                                       {"render.bounds_factor", "1"},
+                                       {"render.shared_topology", "true"},
+                                       {"render.lod.full_detail_characters", "0"},
+                                       {"render.adaptive", "{rule: two-stage}"}};
+  EXPECT_TRUE(load(kScene, harmless).render.adaptive);
+  EXPECT_EQ(warnings(kScene, harmless), Lines{});
+  for (const auto& [key, value] : {std::pair{"render.learned_visibility", "true"},
+                                   {"render.skin_ball", "fractional"},
+                                   {"render.bounds", "user"},
+                                   {"render.bounds_factor", "0.9"},
+                                   {"render.shared_topology", "false"},
+                                   {"render.lod.in_full", "2"},
+                                   {"render.adaptive.rule", "seed"},
+                                   {"render.adaptive.batch", "16"}}) {
+    const Lines lines = problems(kScene, {{key, value}});
+    ASSERT_EQ(lines.size(), 1u) << key;
+    EXPECT_NE(lines[0].find("was removed: "), std::string::npos) << lines[0];
+  }
 }
 
 TEST_F(SceneSchema, OldNamesOfOperatorKeys) {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "render/film/filter_sampler.h"
 #include "render/film/frame_header.h"
+#include "render/film/pixel_filter.h"
 #include "tests/render/film/film_picture.h"
 
 namespace pelage {

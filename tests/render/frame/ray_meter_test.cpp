@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/frame/render_seconds.h"
+#include "render/frame/frame_statistics.h"
 
 namespace pelage {
 namespace {

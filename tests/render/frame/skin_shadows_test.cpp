@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "geom/io/obj_file.h"
-#include "procedurals/fixed.h"
 #include "render/accel/flush_denormals.h"
 #include "render/frame/frame_geometry.h"
 #include "render/sampling/sample_stream.h"
 #include "render/sampling/warp.h"
 #include "tests/geom/eared_skin.h"
+#include "tests/procedurals/fixed.h"
 #include "tests/soak.h"
 #include "tests/support/data.h"
 #include "tests/support/effort.h"

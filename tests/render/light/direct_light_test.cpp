@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/light/direct_light.h"
+
 #include <gtest/gtest.h>
 
 #include "render/fibre/cone_shell_bsdf.h"
 #include "render/light/environment_light.h"
 #include "render/light/light_set.h"
-#include "render/light/mis.h"
 #include "render/light/rectangle_light.h"
 #include "render/light/sphere_light.h"
 #include "render/sampling/sample_stream.h"

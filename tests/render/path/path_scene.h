@@ -9,11 +9,11 @@
 
 #include "base/parallel.h"
 #include "image/texture_library.h"
-#include "procedurals/fixed.h"
 #include "render/light/light_params.h"
 #include "render/render_frame.h"
 #include "render/sampling/sample_stream.h"
 #include "render/sampling/warp.h"
+#include "tests/procedurals/fixed.h"
 
 namespace pelage {
 

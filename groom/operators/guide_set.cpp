@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/operators/guide_set.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "base/job.h"
+#include "base/memory_budget.h"
+#include "geom/curve.h"
+#include "geom/limit_surface.h"
+#include "groom/strands/named_strands.h"
+#include "groom/strands/skin_binding.h"
+
+namespace pelage {
+namespace {
+
+/// The strand as a polyline that is fine enough for measuring it.
+std::vector<V3f> trace(const Strands& strands, size_t strand) {
+  constexpr int kSteps = 8;
+  std::vector<V3f> line;
+  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+  for (uint32_t k = 0; k < segments; ++k) {
+    const CubicSegment segment = bezier_segment(strands, strand, k);
+    for (int i = k == 0 ? 0 : 1; i <= kSteps; ++i) {
+      line.push_back(curve_position(segment, static_cast<float>(i) / kSteps));
+    }
+  }
+  return line;
+}
+
+std::vector<V3f> at_even_arcs(const std::vector<V3f>& line, int count) {
+  std::vector<float> arc(line.size(), 0.0f);
+  for (size_t i = 1; i < line.size(); ++i) arc[i] = arc[i - 1] + (line[i] - line[i - 1]).length();
+  std::vector<V3f> result;
+  size_t segment = 0;
+  for (int i = 0; i < count; ++i) {
+    const float wanted = arc.back() * static_cast<float>(i) / static_cast<float>(count - 1);
+    while (segment + 2 < line.size() && arc[segment + 1] < wanted) ++segment;
+    const float length = arc[segment + 1] - arc[segment];
+    const float t = length > 0 ? std::clamp((wanted - arc[segment]) / length, 0.0f, 1.0f) : 0.0f;
+    result.push_back(line[segment] + (line[segment + 1] - line[segment]) * t);
+  }
+  return result;
+}
+
+/// Median distance to the nearest other guide, over a bounded number of evenly chosen guides.
+float median_spacing(const std::vector<V3f>& roots, const Job& job) {
+  if (roots.size() < 2) return 0;
+  const size_t step = std::max<size_t>(1, roots.size() / 1000);
+  std::vector<float> nearest;
+  for (size_t i = 0; i < roots.size(); i += step) {
+    job.check_stop();
+    float best = std::numeric_limits<float>::infinity();
+    for (size_t j = 0; j < roots.size(); ++j) {
+      if (j != i) best = std::min(best, (roots[i] - roots[j]).length());
+    }
+    nearest.push_back(best);
+  }
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count) {
+  const std::vector<V3f> through = at_even_arcs(trace(strands, strand), count);
+  // The ends are interpolated by construction; inside, solves (P[i-1] + 4 P[i] + P[i+1]) / 6 = Q[i] by
+  // elimination (Thomas).
+  std::vector<V3f> points = through;
+  const size_t last = points.size() - 1;
+  std::vector<float> upper(points.size(), 0.0f);
+  for (size_t i = 1; i < last; ++i) {
+    const float below = i > 1 ? upper[i - 1] : 0.0f;
+    const float pivot = 1.0f / (4.0f - below);
+    upper[i] = pivot;
+    V3f right = through[i] * 6.0f - points[i - 1];
+    if (i + 1 == last) right -= through[last];
+    points[i] = right * pivot;
+  }
+  for (size_t i = last; i-- > 1;) {
+    if (i + 1 < last) points[i] -= points[i + 1] * upper[i];
+  }
+  return points;
+}
+
+GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : points_(context.points) {
+  const Job& job = context.job;
+  // Memory for reading, resampling and two search grids, as a multiple of the file's size.
+  constexpr int64_t kOfFile = 4;
+  std::error_code missing;
+  const auto file_bytes = std::filesystem::file_size(source.file.path, missing);
+  const MemoryCharge making =
+      reserve(job.ledger, MemoryTag::kGrooms, missing ? 0 : kOfFile * static_cast<int64_t>(file_bytes),
+              "reading the guides of " + source.file.path.string() + " for " + context.owner);
+  const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
+  const size_t count = file.strands.strand_count();
+  if (count == 0)
+    throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
+  const SkinBinding binding(*context.rest, source.file.path, job);
+  if (binding.empty())
+    throw Error(ErrorKind::kInput, source.file.position,
+                "guides need a skin with at least one face that is not a hole");
+  for (size_t g = 0; g < count; ++g) {
+    if (g % 256 == 0) job.check_stop();
+    const std::vector<V3f> points = resample_strand(file.strands, g, points_);
+    const RootAddress root = binding.nearest(points[0] * source.scale + source.translate);
+    roots_.push_back(context.rest->evaluate(root.face, root.u, root.v).position);
+    normals_.push_back(context.rest->frame(root.face, root.u, root.v).normal);
+    float length = 0;
+    for (size_t p = 0; p < points.size(); ++p) {
+      offsets_.push_back((points[p] - points[0]) * source.scale);
+      if (p > 0) length += (points[p] - points[p - 1]).length() * source.scale;
+    }
+    lengths_.push_back(length);
+    longest_ = std::max(longest_, length);
+  }
+  spacing_ = median_spacing(roots_, job);
+}
+
+size_t GuideSet::bytes() const {
+  return (roots_.capacity() + normals_.capacity() + offsets_.capacity()) * sizeof(V3f) +
+         lengths_.capacity() * sizeof(float);
+}
+
+}  // namespace pelage
