@@ -30,7 +30,7 @@
 #include "render/light/light_params.h"
 #include "render/path/path_tracer.h"
 
-namespace pelage {
+namespace pelage::render_fireflies {
 namespace {
 
 constexpr int kSize = 72;
@@ -207,4 +207,4 @@ void weights(benchmark::State& state) {
 BENCHMARK(weights)->ArgName("model")->DenseRange(0, 2)->Iterations(1);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_fireflies

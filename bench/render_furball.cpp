@@ -34,7 +34,7 @@
 #include "render/frame/frame_loop.h"
 #include "render/path/path_tracer.h"
 
-namespace pelage {
+namespace pelage::render_furball {
 namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
@@ -130,4 +130,4 @@ BENCHMARK(furball)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_furball

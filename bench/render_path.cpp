@@ -16,7 +16,7 @@
 #include "render/render_frame.h"
 #include "tests/render/accel/embree_scene.h"
 
-namespace pelage {
+namespace pelage::render_path {
 namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
@@ -138,4 +138,4 @@ BENCHMARK(path_over_bare_rays)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_path

@@ -13,7 +13,7 @@
 #include "render/frame/frame_geometry.h"
 #include "render/raster/tile_raster.h"
 
-namespace pelage {
+namespace pelage::render_raster {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540, kEvery = 8;  // one tile in kEvery
@@ -108,4 +108,4 @@ BENCHMARK(rays_over_raster)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_raster

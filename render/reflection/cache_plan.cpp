@@ -35,7 +35,7 @@ constexpr size_t kMinRoom = 4096;
 /// By default, the cache takes at most 1 / kShares of the memory that is left, if slices make that possible.
 constexpr int64_t kShares = 4;
 
-size_t tile_count(const FrameScene& scene) {
+size_t cache_tile_count(const FrameScene& scene) {
   const auto across = [](int side) {
     return static_cast<size_t>((side + CacheRounds::kSide - 1) / CacheRounds::kSide);
   };
@@ -47,7 +47,7 @@ size_t max_cells(const FrameScene& scene) {
   const CacheRounds rounds(scene.render);
   // Each tile of each round may round its count of paths up.
   const double paths = std::ceil(rounds.paths * static_cast<double>(rounds.count * pixels)) +
-                       static_cast<double>(tile_count(scene) * rounds.count);
+                       static_cast<double>(cache_tile_count(scene) * rounds.count);
   const size_t limit = std::clamp(kCellsPerPixel * pixels, kFewestCells, kMostCells);
   return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
 }
@@ -69,7 +69,7 @@ CachePlan CachePlan::with_slices(const FrameScene& scene, uint32_t slices) {
   plan.slices = slices;
   plan.room = slices == 1 ? plan.max_cells
                           : std::min(plan.max_cells, std::max(plan.max_cells / slices * 5 / 4, kMinRoom));
-  plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
+  plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), cache_tile_count(scene));
   const size_t added = plan.batch * CacheRounds(scene.render).cells_of_tile();
   const size_t tables = ReflectionTable::max_bytes(added, lights);
   const size_t slots = ReflectionSlots::bytes(plan.max_cells, lights, plan.density());

@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMinExponent = -60, kMaxExponent = 60;
+constexpr int kMinKeyExponent = -60, kMaxKeyExponent = 60;
 constexpr uint32_t kMaxParts = 128;
 constexpr uint32_t kOutside = 0, kInside = 1;  // of a skin; parts of strands have numbers from 4 on
 constexpr int kSizes[] = {0, 1, 3};  // binary logarithms of the sides of cells / side of the smallest
@@ -58,7 +58,7 @@ std::optional<CellPath> CellKeys::of(const Ray& ray, const Hit& hit, const HitGe
                                  : rest_place(scene_.skins[hit.part], ray, hit, hit_geometry.triangle);
   const V3f seen = on_strand ? hit_geometry.strand.point(0) : ray.origin + hit.distance * ray.direction;
   const float pixels = at.scale * pixels_per_unit(view_, seen);
-  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinExponent, kMaxExponent);
+  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinKeyExponent, kMaxKeyExponent);
   const float length = on_strand ? length_of_polygon(hit_geometry.strand) * pixels_per_unit(view_, seen) : 0;
   const float place = on_strand ? place_on_strand(hit, hit_geometry.strand) : 0;
   const uint32_t skin = !on_strand && is_behind(hit_geometry.triangle, ray) ? kInside : kOutside;

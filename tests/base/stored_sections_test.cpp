@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 
-namespace pelage {
+namespace pelage::stored_sections_test {
 namespace {
 
 constexpr ContentHash kKey{7, 8};
@@ -90,4 +90,4 @@ TEST_F(StoredSectionsOf, of_what_is_damaged_or_foreign_are_absent_with_one_warni
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::stored_sections_test

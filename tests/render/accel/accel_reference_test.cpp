@@ -11,7 +11,7 @@
 #include "tests/render/accel/ribbon_reference.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::accel_reference_test {
 namespace {
 
 constexpr uint64_t kRays = repetitions(700);
@@ -144,4 +144,4 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::accel_reference_test

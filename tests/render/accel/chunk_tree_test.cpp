@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 
-namespace pelage {
+namespace pelage::chunk_tree_test {
 namespace {
 
 float number(uint64_t a, uint64_t b) { return signed_float(hash64(a, b, random_use("tree test"))); }
@@ -186,4 +186,4 @@ TEST(ChunkTree, HoldsNothingWhereNothingIs) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::chunk_tree_test

@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/job.h"
 
-namespace pelage {
+namespace pelage::frame_loop_test {
 namespace {
 
 /// Samples of random brightness at random places in their pixels.
@@ -138,4 +138,4 @@ TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::frame_loop_test

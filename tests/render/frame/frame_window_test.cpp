@@ -11,7 +11,7 @@
 #include "tests/geom/random_strands.h"
 #include "tests/render/path/path_scene.h"
 
-namespace pelage {
+namespace pelage::frame_window_test {
 namespace {
 
 /// Fur under a sky, with the wide filter, on a picture whose size is no multiple of a tile.
@@ -267,4 +267,4 @@ TEST(FrameWatch, DoesNotChangeTheOrderOfSplattedSamples) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::frame_window_test

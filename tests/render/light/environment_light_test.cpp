@@ -9,7 +9,7 @@
 #include "tests/render/sphere_statistics.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::environment_light_test {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -328,4 +328,4 @@ TEST(EnvironmentLight, OneChannelIsGrey) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::environment_light_test
