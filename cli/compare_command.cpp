@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "base/program.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/read_scene.h"
@@ -17,7 +18,6 @@
 #include "lab/report/png.h"
 #include "lab/report/report_files.h"
 #include "lab/report/svg.h"
-#include "lab/runs/process.h"
 
 namespace pelage {
 namespace {
@@ -60,7 +60,7 @@ int run_compare(const Options& options) {
     std::vector<std::string> command{"pelage", "compare", options.input};
     for (const Override& override : options.overrides)
       command.insert(command.end(), {"--set", override.key + "=" + override.value});
-    report.facts = {{"Scene", options.input}, {"Scene hash", scene.hash}, {"Arguments", shell_text(command)}};
+    report.facts = {{"Scene", options.input}, {"Scene hash", scene.hash}, {"Arguments", shell_line(command)}};
     for (auto& fact : machine_facts()) report.facts.push_back(std::move(fact));
     report.facts.emplace_back("Load average",
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));

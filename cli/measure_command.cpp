@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/program.h"
 #include "cli/commands.h"
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
@@ -31,7 +32,7 @@ const char* experiment_name(Experiment experiment) {
 
 MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   MeasureSetup setup;
-  setup.program = current_executable();
+  setup.program = current_program();
   setup.scene = options.input;
   setup.repeat = options.repeat;
   setup.time_limit_s = options.time_limit_s;
@@ -118,7 +119,7 @@ int run_measure(const Options& options) {
   report.facts = {{"Scene", options.input},
                   {"Scene hash", scene.hash},
                   {"Picture", picture_text(scene, options.experiment)},
-                  {"Command", shell_text(command)},
+                  {"Command", shell_line(command)},
                   {"Repeats", std::to_string(options.repeat)}};
   report.facts.insert(report.facts.end(), facts.begin(), facts.end());
   report.facts.emplace_back("Load average",
