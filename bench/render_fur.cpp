@@ -3,7 +3,6 @@
 // the best counts.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
@@ -112,13 +111,9 @@ class EmbreeCurvesOf {
 };
 
 struct FurOf {
-  FurOf(const Strands& strands, FurNodeLayout layout, float width) : snapped(strands, FurGrid(width)) {
-    FurTreeOptions options;
-    options.layout = layout;
-    if (const char* cuts = std::getenv("FUR_CUTS")) options.build.cuts = std::strtof(cuts, nullptr);
-    if (const char* cost = std::getenv("FUR_NODE")) options.build.node_cost = std::strtof(cost, nullptr);
+  FurOf(const Strands& strands, float width) : snapped(strands, FurGrid(width)) {
     const double start = cpu_seconds();
-    tree = std::make_unique<FurTree>(snapped, options);
+    tree = std::make_unique<FurTree>(snapped, FurTreeOptions());
     build_s = cpu_seconds() - start;
   }
   bool occluded(const Ray& ray) const { return tree->occluded(ray, {}); }
@@ -142,25 +137,22 @@ void fur_over_embree(benchmark::State& state) {
   const Strands strands = make_furball(count);
   const float width = kRootWidth * std::sqrt(1e5f / static_cast<float>(count));
   const EmbreeCurvesOf compact(strands, true, 4), fast(strands, false, 4);
-  const FurOf fur128(strands, FurNodeLayout::kFloat, width), fur64(strands, FurNodeLayout::kQuantised, width);
-  const auto n = static_cast<double>(fur64.snapped.segment_count());
+  const FurOf fur(strands, width);
+  const auto n = static_cast<double>(fur.snapped.segment_count());
   const std::vector<Ray> deep = rays_deep_in_furball(100000), camera = camera_rays_at_furball(316);
   for (auto _ : state) {
     const auto compare = [&](const std::string& name, const std::vector<Ray>& rays, bool shadow) {
-      double best[4] = {1e30, 1e30, 1e30, 1e30};
-      size_t hits[4];
+      double best[3] = {1e30, 1e30, 1e30};
+      size_t hits[3];
       for (int run = 0; run < kRuns; ++run) {
         best[0] = std::min(best[0], seconds(compact, rays, shadow, hits[0]));
-        best[1] = std::min(best[1], seconds(fur64, rays, shadow, hits[1]));
-        best[2] = std::min(best[2], seconds(fur128, rays, shadow, hits[2]));
-        best[3] = std::min(best[3], seconds(fast, rays, shadow, hits[3]));
+        best[1] = std::min(best[1], seconds(fur, rays, shadow, hits[1]));
+        best[2] = std::min(best[2], seconds(fast, rays, shadow, hits[2]));
       }
       const auto r = static_cast<double>(rays.size());
       state.counters[name + " Mray/s compact"] = r / best[0] * 1e-6;
-      state.counters[name + " fur64/compact"] = best[0] / best[1];
-      state.counters[name + " fur128/compact"] = best[0] / best[2];
-      state.counters[name + " fur64/fast"] = best[3] / best[1];
-      state.counters[name + " fur128/fast"] = best[3] / best[2];
+      state.counters[name + " fur/compact"] = best[0] / best[1];
+      state.counters[name + " fur/fast"] = best[2] / best[1];
       state.counters[name + " hits embree"] = static_cast<double>(hits[0]) / r;
       state.counters[name + " hits fur"] = static_cast<double>(hits[1]) / r;
     };
@@ -170,10 +162,9 @@ void fur_over_embree(benchmark::State& state) {
   }
   state.counters["bytes/segment compact"] = compact.bytes() / n;
   state.counters["bytes/segment fast"] = fast.bytes() / n;
-  state.counters["bytes/segment fur64"] = static_cast<double>(fur64.tree->bytes()) / n;
-  state.counters["bytes/segment fur128"] = static_cast<double>(fur128.tree->bytes()) / n;
-  state.counters["leaf bytes/segment"] = static_cast<double>(fur64.tree->leaf_bytes()) / n;
-  state.counters["build fur64/compact"] = fur64.build_s / compact.build_s();
+  state.counters["bytes/segment fur"] = static_cast<double>(fur.tree->bytes()) / n;
+  state.counters["leaf bytes/segment"] = static_cast<double>(fur.tree->leaf_bytes()) / n;
+  state.counters["build fur/compact"] = fur.build_s / compact.build_s();
   state.counters["build s compact"] = compact.build_s();
 }
 BENCHMARK(fur_over_embree)

@@ -19,18 +19,20 @@ namespace {
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
 Experiment parse_experiment(const std::string& text) {
-  static const std::map<std::string, Experiment> built{
-      {"accel", Experiment::kAccel},       {"bounds", Experiment::kBounds},
-      {"growth", Experiment::kGrowth},     {"residency", Experiment::kResidency},
-      {"samplers", Experiment::kSamplers}, {"lod", Experiment::kLod},
-      {"shading", Experiment::kShading},   {"bounces", Experiment::kBounces}};
+  static const std::map<std::string, Experiment> built{{"bounds", Experiment::kBounds},
+                                                       {"growth", Experiment::kGrowth},
+                                                       {"residency", Experiment::kResidency},
+                                                       {"samplers", Experiment::kSamplers},
+                                                       {"lod", Experiment::kLod},
+                                                       {"shading", Experiment::kShading},
+                                                       {"bounces", Experiment::kBounces}};
   static const std::vector<std::string> promised{"scaling"};
   if (const auto found = built.find(text); found != built.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
     fail("experiment " + quote(text) +
-         " does not exist yet; choose one of accel, bounces, bounds, growth, lod, residency, samplers and "
+         " does not exist yet; choose one of bounces, bounds, growth, lod, residency, samplers and "
          "shading");
   fail("unknown experiment " + quote(text) + suggest(text, names));
 }
@@ -49,9 +51,6 @@ void check_parts(Experiment experiment, const std::vector<std::string>& parts) {
 }  // namespace
 
 void add_experiment_flags(CLI::App& measure, Options& options) {
-  measure.add_option("--rays", options.rays, "accel: maximum number of rays of each kind (default: 131072)")
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N");
   measure
       .add_option("--characters", options.characters,
                   "lod: number of full-detail characters in each run; the cost of the whole crowd is "

@@ -24,8 +24,6 @@ int run(const pelage::Options& options) {
       return pelage::run_grow(options);
     case Command::kMeasure:
       return pelage::run_measure(options);
-    case Command::kTrace:
-      return pelage::run_trace(options);
     case Command::kCompare:
       return pelage::run_compare(options);
     case Command::kInfo:

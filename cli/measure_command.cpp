@@ -20,8 +20,7 @@ namespace pelage {
 namespace {
 
 const char* experiment_name(Experiment experiment) {
-  return experiment == Experiment::kAccel      ? "accel"
-         : experiment == Experiment::kBounds   ? "bounds"
+  return experiment == Experiment::kBounds     ? "bounds"
          : experiment == Experiment::kGrowth   ? "growth"
          : experiment == Experiment::kSamplers ? "samplers"
          : experiment == Experiment::kLod      ? "lod"
@@ -46,8 +45,6 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
     setup.arguments.insert(setup.arguments.end(), {"--set", "render.lod.enabled=false"});
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
-  if (options.experiment == Experiment::kAccel)
-    setup.arguments.insert(setup.arguments.end(), {"--rays", std::to_string(options.rays)});
   // Pictures, timelines and counts are compared for a single frame.
   setup.arguments.insert(setup.arguments.end(), {"--frames", fmt::format("{}", scene.frames.frames.front())});
   if (options.threads > 0)
@@ -68,8 +65,6 @@ std::string picture_text(const SceneDescription& scene, Experiment experiment) {
 Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
                         ProgressDisplay& display) {
   switch (options.experiment) {
-    case Experiment::kAccel:
-      return measure_accel(scene, setup, display);
     case Experiment::kBounds:
       return measure_bounds(scene, setup, display);
     case Experiment::kGrowth:
@@ -134,8 +129,7 @@ int run_measure(const Options& options) {
   if (interrupted) return SignalGuard::exit_code();
   // A refused budget, or one so small that it takes too long, is a result when budgets are measured;
   // everything else that failed is not.
-  const bool budgets =
-      options.experiment == Experiment::kResidency || options.experiment == Experiment::kAccel;
+  const bool budgets = options.experiment == Experiment::kResidency;
   const bool answered =
       std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
         return outcome.succeeded() || (budgets && (outcome.refused() || outcome.timed_out()));

@@ -105,7 +105,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       "measure", "Run one experiment, one process per variant, and write a report: JSON, CSV, HTML");
   measure
       ->add_option("EXPERIMENT", texts.experiment,
-                   "accel, bounces, bounds, growth, lod, residency, samplers or shading")
+                   "bounces, bounds, growth, lod, residency, samplers or shading")
       ->required();
   add_scene_flags(*measure, options, texts);
   measure
@@ -122,30 +122,6 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("SECONDS");
   add_experiment_flags(*measure, options);
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
-}
-
-void add_trace(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* trace = app.add_subcommand(
-      "trace", "Run one variant of 'measure accel': trace rays through the fur of a scene and time them");
-  trace->group("");  // used by measure only
-  add_scene_flags(*trace, options, texts);
-  trace->add_option("--variant", options.trace_variant, "prepare, or a structure to trace")
-      ->type_name("NAME");
-  trace->add_option("--share", options.trace_share, "Memory of paged fur as a fraction of its tree's size")
-      ->check(positive_number())
-      ->type_name("SHARE");
-  trace->add_option("--kinds", options.trace_kinds, "Ray kinds to trace: camera,gather,sorted,shadow,deep")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("KINDS");
-  trace->add_option("--rays", options.rays, "Maximum number of rays of each kind that 'prepare' makes")
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N");
-  trace->add_option("-o,--output", options.output, "Folder that 'prepare' writes and the other variants read")
-      ->required()
-      ->type_name("DIR");
-  trace->add_option("--frames", texts.frames, "Frame at which to pose the scene")->type_name("FRAME");
-  add_run_flags(*trace, options, texts);
 }
 
 void add_compare(CLI::App& app, Options& options, Texts& texts) {
@@ -243,7 +219,6 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_why(app, options, texts);
   add_grow(app, options, texts);
   add_measure(app, options, texts);
-  add_trace(app, options, texts);
   add_compare(app, options, texts);
   add_info(app, options, texts);
   add_merge(app, options, texts);
@@ -255,13 +230,21 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{
-      {"render", Command::kRender},   {"view", Command::kView},       {"why", Command::kWhy},
-      {"grow", Command::kGrow},       {"measure", Command::kMeasure}, {"trace", Command::kTrace},
-      {"compare", Command::kCompare}, {"info", Command::kInfo},       {"merge", Command::kMerge},
-      {"farm", Command::kFarm},       {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
-      {"stereo", Command::kStereo},   {"rib", Command::kRib},         {"procedural", Command::kProcedural},
-      {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{{"render", Command::kRender},
+                                                    {"view", Command::kView},
+                                                    {"why", Command::kWhy},
+                                                    {"grow", Command::kGrow},
+                                                    {"measure", Command::kMeasure},
+                                                    {"compare", Command::kCompare},
+                                                    {"info", Command::kInfo},
+                                                    {"merge", Command::kMerge},
+                                                    {"farm", Command::kFarm},
+                                                    {"convert", Command::kConvert},
+                                                    {"motionblur", Command::kMotionBlur},
+                                                    {"stereo", Command::kStereo},
+                                                    {"rib", Command::kRib},
+                                                    {"procedural", Command::kProcedural},
+                                                    {"manual", Command::kManual}};
   return names;
 }
 
@@ -272,9 +255,7 @@ void check_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) fail("expected a command; see 'pelage --help'");
   if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
   std::vector<std::string> names;
-  for (const auto& [name, command] : command_names()) {
-    if (command != Command::kTrace) names.push_back(name);  // internal
-  }
+  for (const auto& [name, command] : command_names()) names.push_back(name);
   std::string hint = did_you_mean(arguments[0], names);
   for (const std::string& name : hint.empty() ? names : std::vector<std::string>())
     hint += (hint.empty() ? "; expected one of " : ", ") + name;

@@ -25,7 +25,6 @@ enum class Command {
   kWhy,
   kGrow,
   kMeasure,
-  kTrace,
   kCompare,
   kInfo,
   kMerge,
@@ -38,7 +37,7 @@ enum class Command {
   kManual
 };
 
-enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod, kShading, kBounces };
+enum class Experiment { kBounds, kGrowth, kResidency, kSamplers, kLod, kShading, kBounces };
 
 /// Parts of the report of `measure lod`.
 inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};
@@ -90,11 +89,6 @@ struct Options {
   /// For `measure shading`: samples per pixel, one run of each variant per count.
   std::vector<int> samples{4, 16, 64};
   int reference_samples = 256;  ///< measure shading: samples per pixel of the two reference pictures
-
-  int rays = 1 << 17;                    ///< measure accel, trace: max number of rays of each kind
-  std::string trace_variant = "fur-64";  ///< trace: accelerator, one of LabVariant::names()
-  double trace_share = 1;  ///< trace: memory of the variant `paged`, as a fraction of the size of its tree
-  std::vector<std::string> trace_kinds;  ///< trace: kinds of rays; empty: all kinds
 
   std::vector<std::string> models;  ///< compare: --models; empty: all models
 

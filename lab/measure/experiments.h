@@ -20,10 +20,6 @@ struct Measured {
 // stop, and reports on the variants that were run. It throws Error (kFailed) when the folder of `setup`
 // cannot be written.
 
-/// Compares acceleration structures for fur. Reports memory, build time and page faults. For each kind of
-/// rays, also reports the rays per second and the box and segment tests per ray.
-Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
-
 /// Compares all bounding strategies. Reports time, memory, growth, box tests and pixels that differ.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 

@@ -310,7 +310,7 @@ void FurChunk::strand(uint32_t index, Strands& out) const {
 size_t FurChunk::bytes_bound(const ChunkCounts& n, const FurChunkOptions& options) {
   const size_t segments = n.segments;
   const size_t packed = PackedStrands::bytes_bound(n, PackedPoints::kInFurTree);
-  const size_t tree = FurTree::build_bytes_bound(segments, n.motion_keys, options.tree);
+  const size_t tree = FurTree::build_bytes_bound(segments, n.motion_keys);
   const size_t widened = options.min_width ? WidenedFur::bytes_bound(n.strands) : 0;
   return bytes_bound(n, sizeof(FurChunk) + widened + grown_bytes_bound(n) + packed +
                             SnappedStrands::bytes(n.strands) + tree +

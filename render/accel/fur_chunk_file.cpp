@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "render/accel/fur/fur_leaf.h"
-#include "render/accel/fur/fur_pages.h"
+#include "render/accel/fur/fur_tree_check.h"
 
 namespace pelage {
 namespace {
@@ -22,7 +22,7 @@ enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
 
 /// Metadata of a chunk, followed by the metadata of its packed strands.
 struct Head {
-  uint32_t version, part, layout;
+  uint32_t version, part;
   int32_t motion_keys;
   float step, anchor[3], reach;
   float low[3], high[3];
@@ -32,45 +32,6 @@ struct Head {
 
 ContentHash entry_key(const ContentHash& key) {
   return ContentHasher().add("fur chunks").add(FurChunkFile::kVersion).add(key).digest();
-}
-
-/// Whether no ray can hit a lane, because it is a single point without width at every key.
-bool is_empty_lane(const std::byte* block, bool wide, size_t lane, int motion_keys) {
-  for (int key = 0; key < motion_keys; ++key) {
-    const SnappedSegment segment = read_block(block, wide, lane, key);
-    for (const auto& point : segment) {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        if (point[axis] != segment[0][axis]) return false;
-      }
-      if (point[3] != 0) return false;
-    }
-  }
-  return true;
-}
-
-/// Whether every segment number in the leaves of a validated tree is below `count`.
-bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count) {
-  const size_t size = node_size(view.layout, view.motion_keys);
-  for (size_t n = 0; n < node_bytes; n += size) {
-    for (size_t i = 0; i < 4; ++i) {
-      const FurReference r = child_reference(view.layout, view.motion_keys, view.nodes + n, i);
-      if (!r.is_leaf()) continue;
-      const size_t block = (r.is_wide() ? kWideBlock : kNarrowBlock).block(view.motion_keys);
-      for (uint32_t b = 0; b < r.blocks(); ++b) {
-        const std::byte* const place = view.leaves + r.leaf_offset() + b * block;
-        FurBlockHeader header;
-        std::memcpy(&header, place, sizeof(header));
-        for (size_t lane = 0; lane < FurBlockHeader::kLanes; ++lane) {
-          const uint32_t number = header.number[lane];
-          const bool is_good = number == FurBlockHeader::kNone
-                                   ? is_empty_lane(place, r.is_wide(), lane, view.motion_keys)
-                                   : number < count;
-          if (!is_good) return false;
-        }
-      }
-    }
-  }
-  return true;
 }
 
 /// For a tree that is not empty.
@@ -108,7 +69,6 @@ void FurChunkFile::Writer::add(const FurChunk* chunk) {
   Head head{};
   head.version = kVersion;
   head.part = chunk->part();
-  head.layout = static_cast<uint32_t>(view.layout);
   head.motion_keys = view.motion_keys;
   head.step = view.step;
   head.reach = view.reach;
@@ -186,16 +146,16 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   file_.read(first + kHead, known);
   Head head;
   std::memcpy(&head, known.data(), sizeof(head));
-  FurPageTable table;
-  if (head.version != kVersion || head.layout > static_cast<uint32_t>(FurNodeLayout::kQuantised))
-    refuse(file_);
-  FurFrame frame;
-  frame.turned = head.turned != 0;
+  if (head.version != kVersion) refuse(file_);
+  FurTreeView view;
+  view.motion_keys = head.motion_keys;
+  view.step = head.step;
+  view.anchor = V3f(head.anchor[0], head.anchor[1], head.anchor[2]);
+  view.reach = head.reach;
+  view.frame.turned = head.turned != 0;
   for (size_t i = 0; i < 3; ++i)
-    frame.axes[i] = V3f(head.axes[3 * i], head.axes[3 * i + 1], head.axes[3 * i + 2]);
-  table.trees.push_back({static_cast<FurNodeLayout>(head.layout), head.motion_keys, head.step,
-                         V3f(head.anchor[0], head.anchor[1], head.anchor[2]), head.reach, frame});
-  if (!table.is_possible()) refuse(file_);
+    view.frame.axes[i] = V3f(head.axes[3 * i], head.axes[3 * i + 1], head.axes[3 * i + 2]);
+  if (!has_possible_grid(view)) refuse(file_);
 
   PageBlock block(file_.section_bytes(first + kPacked));
   file_.read(first + kPacked, {block.data(), file_.section_bytes(first + kPacked)});
@@ -206,15 +166,13 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   const size_t nodes = file_.section_bytes(first + kNodes), leaves = file_.section_bytes(first + kLeaves);
   if (!is_in_proportion(strands->segment_count(), leaves, head.motion_keys)) refuse(file_);
   const size_t begin = FurTree::leaves_offset(nodes);
-  if (begin + leaves > UINT32_MAX) refuse(file_);
   PageBlock tree = FurTree::make_block(pool, begin + leaves);
   file_.read(first + kNodes, {tree.data(), nodes});
   file_.read(first + kLeaves, {tree.data() + begin, leaves});
-  const FurTreelet whole{0, 0, 0, static_cast<uint32_t>(nodes), static_cast<uint32_t>(nodes + leaves)};
-  FurTreeView view = treelet_view(table.trees[0], whole, tree.data());
+  view.nodes = tree.data();
   view.leaves = tree.data() + begin;
-  if (nodes > 0 &&
-      (!is_possible_treelet(view, whole) || !numbers_are_below(view, nodes, strands->segment_count()))) {
+  if (nodes > 0 && (!has_possible_nodes(view, nodes, leaves) ||
+                    !has_possible_segments(view, nodes, strands->segment_count()))) {
     refuse(file_);
   }
   FurBox box;

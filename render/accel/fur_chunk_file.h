@@ -21,7 +21,7 @@ class FurChunkFile {
  public:
   /// Version of the stored data. Must be incremented by every change that gives different bytes for the same
   /// strands.
-  static constexpr uint32_t kVersion = 2;
+  static constexpr uint32_t kVersion = 3;
 
   /// Writes an entry. Call add() for all chunks of the frame in ascending order. The entry exists only after
   /// commit() has returned true.

@@ -12,8 +12,8 @@ namespace {
 /// Hash of everything that affects the chunks' bytes; empty when one of them has no hash.
 std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkOptions& options) {
   ContentHasher hasher;
-  hasher.add("stored fur").add(options.compact_attributes).add(options.tree.layout);
-  hasher.add(options.tree.build.node_cost).add(options.tree.build.cuts).add(options.tree.build.rotation);
+  hasher.add("stored fur").add(options.compact_attributes);
+  hasher.add(options.tree.build.node_cost).add(options.tree.build.rotation);
   for (uint32_t leaf = 0; leaf < chunks.leaves().size(); ++leaf) {
     const std::optional<ContentHash> content = chunks.leaves()[leaf]->content();
     if (!content) return {};

@@ -86,25 +86,6 @@ class Measure(unittest.TestCase):
             xml.etree.ElementTree.parse(figure)
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
 
-    def test_accel(self):
-        self.measure("accel", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--rays", "5000")
-        rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        self.assertEqual(len(rows), 9)
-        self.assertEqual({rows[name]["status"] for name in ("Embree fast", "Embree compact", "fur 128", "fur 64")}, {"done"})
-        for name, row in rows.items():
-            self.assertIn(row["status"], ("done", "refused"), name)
-            if row["status"] == "refused":
-                continue
-            self.assertGreater(row["rays_camera"], 0, name)
-            self.assertGreater(row["hits_deep"], 0, name)
-            if not name.startswith("Embree"):
-                self.assertEqual({row[f"answers_{kind}"] for kind in ("camera", "gather", "sorted", "deep")}, {"identical"}, name)
-            if name.startswith("paged"):
-                self.assertLessEqual(row["resident_bytes"], row["limit_bytes"], name)
-        self.assertGreater(rows["fur 64"]["boxes_deep"], 0)
-        self.assertEqual(rows["paged, 100 %"]["faults_camera"], 0)
-        self.assertFalse((self.path / "out" / "work").exists())
-
     def test_samplers(self):
         self.measure("samplers", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--set", "render.samples=256")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}

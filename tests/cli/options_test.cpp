@@ -179,12 +179,11 @@ TEST(Options, NumbersAreFiniteAndInTheirRange) {
   EXPECT_EQ(parsed({"render", "a.yaml", "--scale", "2.5e-1"}).picture.scale, 0.25);
   for (const char* flag : {"--time-limit", "--scale"})
     EXPECT_NE(problem({"render", "a.yaml", flag, "0"}).find("greater than 0, got '0'"), std::string::npos);
-  EXPECT_NE(problem({"measure", "accel", "a.yaml", "--time-limit", "nan"}).find("greater than 0"),
+  EXPECT_NE(problem({"measure", "bounds", "a.yaml", "--time-limit", "nan"}).find("greater than 0"),
             std::string::npos);
   EXPECT_NE(problem({"convert", "a", "b", "--default-width", "nan"}).find("greater than 0"),
             std::string::npos);
   EXPECT_NE(problem({"stereo", "a", "b", "--focal-pixels", "nan"}).find("greater than 0"), std::string::npos);
-  EXPECT_NE(problem({"trace", "a", "-o", "b", "--share", "nan"}).find("greater than 0"), std::string::npos);
   EXPECT_NE(
       problem({"stereo", "a", "b", "--fov", "nan"}).find("expected a number from 0.01 to 170, got 'nan'"),
       std::string::npos);
@@ -201,10 +200,9 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(options.output, "out");
   EXPECT_EQ(options.repeat, 5);
   EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
-  EXPECT_EQ(parsed({"measure", "accel", "s"}).experiment, Experiment::kAccel);
   EXPECT_EQ(problem({"measure", "growht", "s"}), "unknown experiment 'growht'; did you mean 'growth'?");
   EXPECT_EQ(problem({"measure", "scaling", "s"}),
-            "experiment 'scaling' does not exist yet; choose one of accel, bounces, bounds, growth, lod, "
+            "experiment 'scaling' does not exist yet; choose one of bounces, bounds, growth, lod, "
             "residency, samplers and shading");
   const Options lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
   EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
@@ -228,17 +226,6 @@ TEST(Options, OfMeasure) {
             "--parts: only lod and shading have parts");
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
-}
-
-TEST(Options, OfTrace) {
-  const Options options =
-      parsed({"trace", "s.yaml", "--variant", "paged", "--share", "0.25", "-o", "work", "--threads", "2"});
-  EXPECT_EQ(options.command, Command::kTrace);
-  EXPECT_EQ(options.trace_variant, "paged");
-  EXPECT_EQ(options.trace_share, 0.25);
-  EXPECT_EQ(options.output, "work");
-  EXPECT_NE(problem({"trace", "s.yaml", "-o", "work", "--share", "0"}), "");
-  EXPECT_NE(problem({"trace", "s.yaml"}), "");
 }
 
 TEST(Options, OfCompare) {

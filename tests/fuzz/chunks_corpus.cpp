@@ -39,7 +39,6 @@ std::unique_ptr<FurChunk> small_chunk(uint32_t kind) {
   fur.strands = Strands(std::move(arrays));
   FurChunkOptions options;
   options.compact_attributes = kind != 5;
-  options.tree.layout = kind == 4 ? FurNodeLayout::kFloat : FurNodeLayout::kQuantised;
   options.tree.build.rotation = kind == 0 ? FurRotation::kAlways : FurRotation::kNever;
   return std::make_unique<FurChunk>(ChunkContents{std::move(fur), kind}, kind, FurGrid(shape.width), options);
 }
@@ -55,7 +54,7 @@ std::string chunk_file(std::initializer_list<uint32_t> kinds) {
 
 /// Whose box would hold nothing.
 std::string unbounded_chunk_file() {
-  constexpr size_t kBox = 64 + 36;  // in what is known of the first chunk
+  constexpr size_t kBox = 64 + 32;  // in what is known of the first chunk
   std::string file = chunk_file({0});
   const float nothing = std::numeric_limits<float>::quiet_NaN();
   for (size_t i = 0; i < 6; ++i) std::memcpy(&file[kBox + 4 * i], &nothing, sizeof(nothing));

@@ -27,7 +27,6 @@ std::vector<std::string> cache_corpus();
 std::vector<std::string> checkpoint_corpus();
 std::vector<std::string> leaf_corpus();
 std::vector<std::string> fur_corpus();
-std::vector<std::string> treelet_corpus();
 std::vector<std::string> chunks_corpus();
 std::vector<std::string> rib_corpus();
 

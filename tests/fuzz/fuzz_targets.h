@@ -32,10 +32,8 @@ void fuzz_checkpoint(std::span<const uint8_t> bytes);
 /// A leaf of an operator cache, as if its checksum were right; and a layer of one.
 void fuzz_leaf(std::span<const uint8_t> bytes);
 
-/// A file of fur pages, as it is and as if its checksums were right, and rays through what it holds.
+/// The nodes and leaves of a fur tree, and rays through them.
 void fuzz_fur(std::span<const uint8_t> bytes);
-/// A treelet of one, as if its checksum were right.
-void fuzz_treelet(std::span<const uint8_t> bytes);
 
 /// A file of chunks of fur, as it is and as if its checksums were right, and rays through what it holds.
 void fuzz_chunks(std::span<const uint8_t> bytes);

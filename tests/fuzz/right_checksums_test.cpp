@@ -15,7 +15,7 @@ std::vector<uint8_t> mended(const std::string& bytes) {
 }
 
 TEST(RightChecksums, ChangeNothingOfAFileInOrder) {
-  for (const auto& corpus : {cache_corpus(), fur_corpus()}) {
+  for (const auto& corpus : {cache_corpus(), chunks_corpus()}) {
     for (const std::string& file : corpus)
       EXPECT_EQ(mended(file), std::vector<uint8_t>(file.begin(), file.end()));
   }

@@ -37,11 +37,7 @@ Four bytes_at(const std::byte* place) {
 struct Sides {
   Four low, high;
 };
-Sides sides_of(const FurTreeView& tree, const std::byte* node, size_t axis, size_t key) {
-  if (tree.layout == FurNodeLayout::kFloat) {
-    const std::byte* at = node + key * FurFloatNode::kKey + axis * FurFloatNode::kAxis;
-    return {get<Four>(at), get<Four>(at + FurFloatNode::kSide)};
-  }
+Sides sides_of(const std::byte* node, size_t axis, size_t key) {
   const Four origin = four(get<float>(node + FurQuantisedNode::kOrigin + axis * sizeof(float)));
   const Four scale = four(get<float>(node + FurQuantisedNode::kScale + axis * sizeof(float)));
   const std::byte* at =
@@ -129,9 +125,9 @@ class Visit {
   size_t open(const std::byte* node, Entry* out) const {
     Sides box[3];
     for (size_t axis = 0; axis < 3; ++axis) {
-      box[axis] = sides_of(tree_, node, axis, 0);
+      box[axis] = sides_of(node, axis, 0);
       for (size_t key = 1; key < keys_.size(); ++key) {
-        const Sides other = sides_of(tree_, node, axis, key);
+        const Sides other = sides_of(node, axis, key);
         box[axis] = {smaller(box[axis].low, other.low), larger(box[axis].high, other.high)};
       }
     }
@@ -153,7 +149,7 @@ class Visit {
     size_t count = 0;
     for (size_t i = 0; i < 4; ++i) {
       if (!(inside[i] >= 0) || footprints[i].is_empty()) continue;
-      const FurReference child = child_reference(tree_.layout, tree_.motion_keys, node, i);
+      const FurReference child = child_reference(node, i);
       if (child.is_none()) continue;
       const float depth = footprints[i].depth;
       size_t at = count++;

@@ -32,17 +32,6 @@ struct FurHit {
   }
 };
 
-/// Numbers of tests that queries made.
-struct FurTests {
-  int64_t boxes = 0;     ///< tests of rays against boxes: four per visited node
-  int64_t segments = 0;  ///< tests of rays against segments: four per visited block, including empty lanes
-
-  FurTests& operator+=(const FurTests& o) {
-    boxes += o.boxes, segments += o.segments;
-    return *this;
-  }
-};
-
 /// Decides which hits a query accepts. A query may call accepts() in any order of hits, and several times for
 /// the same hit. Distances of these hits are in scene units.
 class FurFilter {

@@ -5,7 +5,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
-// Under sanitizers, functions are not inlined: sixteen copies of all of them would take minutes to compile.
+// Under sanitizers, functions are not inlined: many copies of all of them would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PELAGE_FUR_INLINE HWY_NOINLINE
 #else
@@ -51,15 +51,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Query>
 PELAGE_FUR_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) {
   if (tree.motion_keys > 1) {
-    if (tree.layout == FurNodeLayout::kFloat) {
-      walk<FloatSlabs<true>, true>(tree, ray, query);
-    } else {
-      walk<QuantisedSlabs<true>, true>(tree, ray, query);
-    }
-  } else if (tree.layout == FurNodeLayout::kFloat) {
-    walk<FloatSlabs<false>, false>(tree, ray, query);
+    walk<true>(tree, ray, query);
   } else {
-    walk<QuantisedSlabs<false>, false>(tree, ray, query);
+    walk<false>(tree, ray, query);
   }
 }
 
@@ -70,11 +64,8 @@ Query answer(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
   return query;
 }
 
-FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
-  if (HWY_LIKELY(!tests)) return answer<NearestFur>(tree, ray, filter).hit;
-  const auto counted = answer<Counting<NearestFur>>(tree, ray, filter);
-  *tests += counted.tests;
-  return counted.hit;
+FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
+  return answer<NearestFur>(tree, ray, filter).hit;
 }
 
 FurHit closest_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at, FurFilter* filter) {
@@ -87,11 +78,8 @@ FurHit closest_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPl
   return query.hit;
 }
 
-bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
-  if (HWY_LIKELY(!tests)) return answer<AnyFur>(tree, ray, filter).hit;
-  const auto counted = answer<Counting<AnyFur>>(tree, ray, filter);
-  *tests += counted.tests;
-  return counted.hit;
+bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
+  return answer<AnyFur>(tree, ray, filter).hit;
 }
 
 }  // namespace
@@ -107,8 +95,8 @@ HWY_EXPORT(closest_at);
 HWY_EXPORT(occluded);
 }  // namespace
 
-FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
-  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, ray, filter, tests);
+FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
+  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, ray, filter);
   if (!hit) return {};
   hit.distance *= tree.step;
   return hit;
@@ -122,8 +110,8 @@ FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegme
   return hit;
 }
 
-bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
-  return HWY_DYNAMIC_DISPATCH(occluded)(tree, ray, filter, tests);
+bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
+  return HWY_DYNAMIC_DISPATCH(occluded)(tree, ray, filter);
 }
 
 }  // namespace pelage

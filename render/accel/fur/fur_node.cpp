@@ -12,23 +12,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMaxSteps = 255;
 
-void write_float_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
-  for (size_t key = 0; key < static_cast<size_t>(motion_keys); ++key) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      float sides[2][4];
-      for (size_t i = 0; i < 4; ++i) {
-        const bool there = i < children.size();
-        sides[0][i] = there ? children[i].boxes[key].low[axis] : kInfinity;
-        sides[1][i] = there ? children[i].boxes[key].high[axis] : -kInfinity;
-      }
-      std::memcpy(out + key * FurFloatNode::kKey + axis * FurFloatNode::kAxis, sides, sizeof(sides));
-    }
-  }
-  uint32_t references[4] = {};
-  for (size_t i = 0; i < children.size(); ++i) references[i] = children[i].reference.bits();
-  std::memcpy(out + FurFloatNode::references(motion_keys), references, sizeof(references));
-}
-
 /// The largest step from which origin + step * scale does not exceed `low`.
 uint8_t step_below(float low, float origin, float scale) {
   float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMaxSteps);
@@ -42,7 +25,23 @@ uint8_t step_above(float high, float origin, float scale) {
   return static_cast<uint8_t>(step);
 }
 
-void write_quantised_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
+}  // namespace
+
+void FurBox::extend(const FurBox& o) {
+  for (size_t i = 0; i < 3; ++i) {
+    low[i] = std::min(low[i], o.low[i]);
+    high[i] = std::max(high[i], o.high[i]);
+  }
+}
+
+double FurBox::area() const {
+  if (is_empty()) return 0;
+  const double x = double(high[0]) - low[0], y = double(high[1]) - low[1], z = double(high[2]) - low[2];
+  return x * y + y * z + z * x;
+}
+
+void write_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
+  std::memset(out, 0, FurQuantisedNode::size(motion_keys));
   FurBox whole;
   for (const FurChild& child : children) {
     for (const FurBox& box : child.boxes) whole.extend(box);
@@ -76,63 +75,16 @@ void write_quantised_node(int motion_keys, std::span<const FurChild> children, s
   }
 }
 
-size_t references_of(FurNodeLayout layout, int motion_keys) {
-  return layout == FurNodeLayout::kFloat ? FurFloatNode::references(motion_keys)
-                                         : FurQuantisedNode::kReferences;
-}
-
-}  // namespace
-
-void FurBox::extend(const FurBox& o) {
-  for (size_t i = 0; i < 3; ++i) {
-    low[i] = std::min(low[i], o.low[i]);
-    high[i] = std::max(high[i], o.high[i]);
-  }
-}
-
-double FurBox::area() const {
-  if (is_empty()) return 0;
-  const double x = double(high[0]) - low[0], y = double(high[1]) - low[1], z = double(high[2]) - low[2];
-  return x * y + y * z + z * x;
-}
-
-size_t node_size(FurNodeLayout layout, int motion_keys) {
-  return layout == FurNodeLayout::kFloat ? FurFloatNode::size(motion_keys)
-                                         : FurQuantisedNode::size(motion_keys);
-}
-
-void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out) {
-  std::memset(out, 0, node_size(layout, motion_keys));
-  if (layout == FurNodeLayout::kFloat) {
-    write_float_node(motion_keys, children, out);
-  } else {
-    write_quantised_node(motion_keys, children, out);
-  }
-}
-
-FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i) {
+FurReference child_reference(const std::byte* node, size_t i) {
   uint32_t bits = 0;
-  std::memcpy(&bits, node + references_of(layout, motion_keys) + i * sizeof(bits), sizeof(bits));
+  std::memcpy(&bits, node + FurQuantisedNode::kReferences + i * sizeof(bits), sizeof(bits));
   return FurReference::from_bits(bits);
 }
 
-void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
-                         FurReference reference) {
-  const uint32_t bits = reference.bits();
-  std::memcpy(node + references_of(layout, motion_keys) + i * sizeof(bits), &bits, sizeof(bits));
-}
-
-FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key) {
+FurBox child_box(const std::byte* node, size_t i, int key) {
   FurBox box;
   const auto k = static_cast<size_t>(key);
   for (size_t axis = 0; axis < 3; ++axis) {
-    if (layout == FurNodeLayout::kFloat) {
-      float sides[2][4];
-      std::memcpy(sides, node + k * FurFloatNode::kKey + axis * FurFloatNode::kAxis, sizeof(sides));
-      box.low[axis] = sides[0][i];
-      box.high[axis] = sides[1][i];
-      continue;
-    }
     float origin = 0, scale = 0;
     uint8_t sides[2][4];
     std::memcpy(&origin, node + FurQuantisedNode::kOrigin + axis * sizeof(float), sizeof(float));

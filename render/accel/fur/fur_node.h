@@ -10,11 +10,6 @@
 
 namespace pelage {
 
-/// How nodes store the boxes of their four children. kFloat: as floats [Neulander13]; without motion, a node
-/// has 128 bytes. kQuantised: as 8-bit coordinates on a grid of the node; without motion, a node has 64
-/// bytes.
-enum class FurNodeLayout : uint8_t { kFloat, kQuantised };
-
 /// An axis-aligned box in grid units; inverted when empty.
 struct FurBox {
   std::array<float, 3> low{1e30f, 1e30f, 1e30f};
@@ -31,18 +26,10 @@ struct FurChild {
   std::span<const FurBox> boxes;  ///< one per motion key
 };
 
-/// Byte offsets in a node of float layout. For each motion key and axis, the node has the low sides of the
-/// four children's boxes and then their high sides. The references to the children follow from references()
-/// on.
-struct FurFloatNode {
-  static constexpr size_t kKey = 96, kAxis = 32, kSide = 16;
-  static constexpr size_t references(int motion_keys) { return kKey * static_cast<size_t>(motion_keys); }
-  static constexpr size_t size(int motion_keys) { return (references(motion_keys) + 16 + 63) / 64 * 64; }
-};
-
-/// Byte offsets in a node of quantised layout. The node has the origin of its grid (three axes), the scale of
-/// its grid (three axes) and the references to the four children. For each motion key and axis, the low sides
-/// of the children's boxes follow and then their high sides, one byte per side.
+/// Byte offsets in a node. The boxes of the four children are 8-bit coordinates on a grid of the node;
+/// without motion, a node has 64 bytes. The node has the origin of its grid (three axes), the scale of its
+/// grid (three axes) and the references to the children. For each motion key and axis, the low sides of the
+/// children's boxes follow and then their high sides, one byte per side.
 struct FurQuantisedNode {
   static constexpr size_t kOrigin = 0, kScale = 12, kReferences = 24, kPlanes = 40;
   static constexpr size_t kKey = 24, kAxis = 8, kSide = 4;
@@ -51,18 +38,15 @@ struct FurQuantisedNode {
   }
 };
 
-size_t node_size(FurNodeLayout layout, int motion_keys);
 /// Writes a node with 1 to 4 children. The decoded boxes contain the given boxes, up to the rounding errors
 /// of one product and one sum in the decoder.
-void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
+void write_node(int motion_keys, std::span<const FurChild> children, std::byte* out);
 
 /// Returns the reference to child `i` of a node written by write_node(). If the node has no such child,
 /// is_none() of the reference is true.
-FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
-void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
-                         FurReference reference);
+FurReference child_reference(const std::byte* node, size_t i);
 /// Returns the box of child `i` at one key. Its sides are moved outward by the rounding error of decoding, so
 /// the box contains the box given to write_node().
-FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key);
+FurBox child_box(const std::byte* node, size_t i, int key);
 
 }  // namespace pelage

@@ -17,10 +17,10 @@ struct Subtree {
 
 void add_children(const FurTreeView& tree, const std::byte* node, std::vector<Subtree>& out) {
   for (size_t i = 0; i < 4; ++i) {
-    Subtree child{child_reference(tree.layout, tree.motion_keys, node, i), {}, 0};
+    Subtree child{child_reference(node, i), {}, 0};
     if (child.reference.is_none()) continue;
     for (int key = 0; key < tree.motion_keys; ++key) {
-      child.boxes.push_back(tree.frame.unrotated(child_box(tree.layout, node, i, key)));
+      child.boxes.push_back(tree.frame.unrotated(child_box(node, i, key)));
       child.area += child.boxes.back().area();
     }
     out.push_back(std::move(child));

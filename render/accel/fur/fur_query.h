@@ -52,7 +52,7 @@ class NearestFur {
     hit.distance = ray.far;
   }
   float far() const { return hit.distance; }
-  static constexpr bool kOrdered = true, kCounts = false;
+  static constexpr bool kOrdered = true;
 
   /// Whether a hit at this distance on segment `number` precedes the current hit.
   bool wants(float distance, uint32_t number) const {
@@ -81,7 +81,7 @@ class AnyFur {
   AnyFur(const FurRay& ray, FurFilter* filter, float step)
       : near_(ray.near), far_(ray.far), step_(step), filter_(filter) {}
   float far() const { return far_; }
-  static constexpr bool kOrdered = false, kCounts = false;
+  static constexpr bool kOrdered = false;
   bool wants(float distance, uint32_t) const { return distance > near_ && distance < far_; }
   bool take(FurHit found) {
     found.distance *= step_;
@@ -107,15 +107,6 @@ class OnlySegment : public Query {
 
  private:
   uint32_t number_;
-};
-
-/// A query that also counts its tests.
-template <class Query>
-class Counting : public Query {
- public:
-  using Query::Query;
-  static constexpr bool kCounts = true;
-  FurTests tests;
 };
 
 inline bool is_on_start(const FurRay& ray, uint32_t number) {

@@ -95,8 +95,8 @@ class FurRays {
 };
 
 /// Like FurTree::closest() and FurTree::occluded(), for a ray that was prepared for this view. The view must
-/// have nodes. They add the numbers of their tests to `tests`, unless `tests` is null.
-FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
+/// have nodes.
+FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter);
 /// A block that holds a segment.
 struct FurSegmentPlace {
   const std::byte* block = nullptr;
@@ -107,6 +107,6 @@ struct FurSegmentPlace {
 /// segment before.
 FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at,
                       FurFilter* filter);
-bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
+bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter);
 
 }  // namespace pelage

@@ -26,7 +26,7 @@ void for_each_block(const FurTreeView& tree, const Use& use) {
     const std::byte* node = tree.nodes + waiting.back();
     waiting.pop_back();
     for (size_t i = 0; i < 4; ++i) {
-      const FurReference child = child_reference(tree.layout, tree.motion_keys, node, i);
+      const FurReference child = child_reference(node, i);
       if (child.is_none()) continue;
       if (!child.is_leaf()) {
         waiting.push_back(child.node_offset());

@@ -97,7 +97,6 @@ PELAGE_FUR_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, con
                                  Query& query) {
   const std::byte* block = tree.leaves + leaf.leaf_offset();
   const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
-  if constexpr (Query::kCounts) query.tests.segments += 4 * leaf.blocks();
   for (uint32_t i = 0; i < leaf.blocks(); ++i, block += size) {
     if (HWY_UNLIKELY(leaf.is_wide())) {
       if (test_wide_block<kMoving>(block, ray, query)) return true;

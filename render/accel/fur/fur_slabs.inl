@@ -1,52 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of fur_kernels.cpp: intersection of a ray with the boxes of nodes.
 
-/// A ray against the four boxes of a float node.
-template <bool kMoving>
-class FloatSlabs {
- public:
-  PELAGE_FUR_INLINE FloatSlabs(const FurTreeView& tree, const FurRay& ray)
-      : references_(FurFloatNode::references(tree.motion_keys)),
-        key_(static_cast<size_t>(ray.key) * FurFloatNode::kKey),
-        before_(all(1 - ray.fraction)),
-        after_(all(ray.fraction)) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      inverse_[axis] = all(ray.inverse[axis]);
-      near_origin_[axis] = all(ray.near_origin[axis]);
-      far_origin_[axis] = all(ray.far_origin[axis]);
-      near_side_[axis] = axis * FurFloatNode::kAxis + ray.near_side[axis] * FurFloatNode::kSide;
-    }
-  }
-  PELAGE_FUR_INLINE const uint32_t* references(const std::byte* node) const {
-    return reinterpret_cast<const uint32_t*>(node + references_);
-  }
-  PELAGE_FUR_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const V near_side = side(node + near_side_[axis]),
-              far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
-      enter = hn::Max(hn::Mul(hn::Sub(near_side, near_origin_[axis]), inverse_[axis]), enter);
-      leave = hn::Min(hn::Mul(hn::Sub(far_side, far_origin_[axis]), inverse_[axis]), leave);
-    }
-    return hn::Le(enter, leave);
-  }
-
- private:
-  PELAGE_FUR_INLINE V side(const std::byte* place) const {
-    const V a = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_));
-    if constexpr (!kMoving) return a;
-    const V b = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_ + FurFloatNode::kKey));
-    return hn::Add(hn::Mul(a, before_), hn::Mul(b, after_));
-  }
-  size_t references_, key_;
-  V before_, after_, inverse_[3], near_origin_[3], far_origin_[3];
-  size_t near_side_[3];
-};
-
-/// The same for a quantised node.
+/// A ray against the four boxes of a node.
 template <bool kMoving>
 class QuantisedSlabs {
  public:
-  PELAGE_FUR_INLINE QuantisedSlabs(const FurTreeView&, const FurRay& ray)
+  PELAGE_FUR_INLINE explicit QuantisedSlabs(const FurRay& ray)
       : key_(FurQuantisedNode::kPlanes + static_cast<size_t>(ray.key) * FurQuantisedNode::kKey),
         before_(all(1 - ray.fraction)),
         after_(all(ray.fraction)),

@@ -33,6 +33,15 @@ struct Bounds {
   }
 };
 
+Bounds hull_of(const SnappedSegment& segment) {
+  Bounds hull;
+  for (const std::array<float, 4>& p : segment) {
+    const Four point{p[0], p[1], p[2], p[3]}, radius = four(p[3]);
+    hull.extend(point - radius, point + radius);
+  }
+  return hull;
+}
+
 struct Split {
   float cost = kFar;
   int axis = -1;
@@ -50,7 +59,7 @@ class Builder {
     tree_.nodes.emplace_back();
     build_node(0, {0, pieces_.size(), 0, kFar});
     tree_.order.reserve(pieces_.size());
-    for (const FurPiece& piece : pieces_) tree_.order.push_back(piece.part());
+    for (const FurPiece& piece : pieces_) tree_.order.push_back(piece.number());
     return std::move(tree_);
   }
 
@@ -229,14 +238,31 @@ class Builder {
 
 }  // namespace
 
-FurPiece::FurPiece(const Four& box_low, const Four& box_high, CurvePart part) : low(box_low), high(box_high) {
-  low[3] = std::bit_cast<float>(part.number);
-  high[3] = std::bit_cast<float>(part.part);
+FurPiece::FurPiece(const Four& box_low, const Four& box_high, uint32_t number)
+    : low(box_low), high(box_high) {
+  low[3] = std::bit_cast<float>(number);
 }
 
-CurvePart FurPiece::part() const {
-  const float number = low[3], part = high[3];
-  return {std::bit_cast<uint32_t>(number), std::bit_cast<uint32_t>(part)};
+uint32_t FurPiece::number() const {
+  const float number = low[3];
+  return std::bit_cast<uint32_t>(number);
+}
+
+std::vector<FurPiece> make_pieces(const SnappedStrands& strands, const FurFrame& frame) {
+  std::vector<FurPiece> pieces;
+  pieces.reserve(strands.segment_count());
+  const Four share = four(1.0f / static_cast<float>(strands.motion_keys()));
+  strands.for_each_segment([&](uint32_t number, SnappedStrands::Place place) {
+    Four low = four(0), high = four(0);
+    for (int key = 0; key < strands.motion_keys(); ++key) {
+      const SnappedSegment segment = strands.segment(place, key);
+      if (!SnappedStrands::is_drawable(segment)) return;
+      const Bounds hull = hull_of(frame(segment));
+      low = low + hull.low, high = high + hull.high;
+    }
+    pieces.emplace_back(low * share, high * share, number);
+  });
+  return pieces;
 }
 
 FurTopologySize topology_bound(size_t pieces) {

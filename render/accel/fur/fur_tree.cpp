@@ -31,14 +31,12 @@ FurBox hull(const SnappedSegment& segment) {
 /// Writes a topology. Nodes are in depth-first order, and so are leaves; the leaves of one node are adjacent.
 class FurTree::Writer {
  public:
-  Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout,
-         const FurFrame& frame)
+  Writer(const SnappedStrands& strands, const FurTopology& topology, const FurFrame& frame)
       : strands_(strands),
         topology_(topology),
         frame_(frame),
-        layout_(layout),
         keys_(static_cast<size_t>(strands.motion_keys())),
-        node_bytes_(topology.nodes.size() * node_size(layout, strands.motion_keys())),
+        node_bytes_(topology.nodes.size() * FurQuantisedNode::size(strands.motion_keys())),
         wide_(topology.nodes.size() * 4) {}
 
   /// Offset of the leaves.
@@ -81,7 +79,7 @@ class FurTree::Writer {
         const FurTopology::Child& child = node.children[i];
         if (child.count == 0) {
           references_[n * 4 + i] =
-              FurReference::to_node(child.node * node_size(layout_, strands_.motion_keys()));
+              FurReference::to_node(child.node * FurQuantisedNode::size(strands_.motion_keys()));
           continue;
         }
         const bool wide = wide_[n * 4 + i];
@@ -129,7 +127,7 @@ class FurTree::Writer {
     segments_.clear();
     const size_t count = std::min<size_t>(child.count - first, FurBlockHeader::kLanes);
     for (size_t i = 0; i < count; ++i) {
-      block.numbers[i] = topology_.order[child.first + first + i].number;
+      block.numbers[i] = topology_.order[child.first + first + i];
       const SnappedStrands::Place place = strands_.locate(block.numbers[i]);
       for (size_t key = 0; key < keys_; ++key) {
         segments_.push_back(strands_.segment(place, static_cast<int>(key)));
@@ -147,8 +145,7 @@ class FurTree::Writer {
       write_block(block, static_cast<int>(keys_), wide, out);
       out += block_size(wide);
       for (size_t i = 0; i < block.segments.size(); ++i) {
-        const uint32_t part = topology_.order[child.first + first + i / keys_].part;
-        const SnappedSegment curve = part_of(block.segments[i], part);
+        const SnappedSegment& curve = block.segments[i];
         boxes[i % keys_].extend(hull(frame_(curve)));
         whole_.extend(hull(curve));
       }
@@ -166,14 +163,13 @@ class FurTree::Writer {
       children[i] = {references_[n * 4 + i], std::span(boxes, keys_)};
       for (size_t key = 0; key < keys_; ++key) node_boxes_[n * keys_ + key].extend(boxes[key]);
     }
-    write_node(layout_, static_cast<int>(keys_), std::span(children, node.child_count),
-               nodes + n * node_size(layout_, strands_.motion_keys()));
+    write_node(static_cast<int>(keys_), std::span(children, node.child_count),
+               nodes + n * FurQuantisedNode::size(strands_.motion_keys()));
   }
 
   const SnappedStrands& strands_;
   const FurTopology& topology_;
   const FurFrame& frame_;
-  const FurNodeLayout layout_;
   const size_t keys_, node_bytes_;
   size_t leaf_bytes_ = 0;
   std::vector<bool> wide_;          // of leaves: by node and child
@@ -192,18 +188,17 @@ PageBlock FurTree::make_block(PagePool* pool, size_t bytes) {
 }
 
 FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
-  view_.layout = options.layout;
   view_.motion_keys = strands.motion_keys();
   view_.step = strands.grid().step();
   view_.anchor = strands.grid().anchor();
   view_.frame = choose_frame(strands, options.build.rotation);
-  std::vector<FurPiece> pieces = make_pieces(strands, options.build.cuts, view_.frame);
+  std::vector<FurPiece> pieces = make_pieces(strands, view_.frame);
   build_bytes_ = pieces.capacity() * sizeof(FurPiece);
   const FurTopology topology = build_topology(std::move(pieces), options.build);
   const size_t topology_bytes = topology.bytes();
   build_bytes_ += topology_bytes;
   if (topology.nodes.empty()) return;
-  Writer writer(strands, topology, options.layout, view_.frame);
+  Writer writer(strands, topology, view_.frame);
   block_ = writer.write(options.pool);
   node_bytes_ = writer.node_bytes();
   leaf_bytes_ = writer.leaf_bytes();
@@ -221,14 +216,13 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   }
 }
 
-size_t FurTree::build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options) {
+size_t FurTree::build_bytes_bound(size_t segments, int motion_keys) {
   // The samples for choosing a frame are freed before and never take as much memory.
-  const size_t pieces = piece_count_bound(segments, options.build.cuts);
-  const FurTopologySize size = topology_bound(pieces);
-  const size_t topology = size.nodes * sizeof(FurTopology::Node) + pieces * sizeof(CurvePart);
-  const size_t tree = PageBlock::held_bytes(size.nodes * node_size(options.layout, motion_keys) +
+  const FurTopologySize size = topology_bound(segments);
+  const size_t topology = size.nodes * sizeof(FurTopology::Node) + segments * sizeof(uint32_t);
+  const size_t tree = PageBlock::held_bytes(size.nodes * FurQuantisedNode::size(motion_keys) +
                                             kNodeAlignment + size.blocks * kWideBlock.block(motion_keys));
-  return topology + std::max(pieces * sizeof(FurPiece),
+  return topology + std::max(segments * sizeof(FurPiece),
                              tree + Writer::scratch_bytes(size.nodes, static_cast<size_t>(motion_keys)));
 }
 
@@ -251,18 +245,16 @@ bool FurTree::occluded(const Ray& ray, const FurStart& start, FurFilter* filter)
   return fur_occludes(view_, ray, start, filter);
 }
 
-FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                   FurTests* tests) {
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter) {
   FurRay prepared;
   if (!tree.nodes || !prepared.prepare(tree, ray, start)) return {};
-  return closest_fur(tree, prepared, filter, tests);
+  return closest_fur(tree, prepared, filter);
 }
 
-bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                  FurTests* tests) {
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter) {
   FurRay prepared;
   if (!tree.nodes || !prepared.prepare(tree, ray, start)) return false;
-  return fur_occludes(tree, prepared, filter, tests);
+  return fur_occludes(tree, prepared, filter);
 }
 
 }  // namespace pelage

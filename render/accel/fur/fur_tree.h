@@ -14,7 +14,6 @@
 namespace pelage {
 
 struct FurTreeOptions {
-  FurNodeLayout layout = FurNodeLayout::kQuantised;
   FurBuildOptions build;
   PagePool* pool = nullptr;  ///< provides the tree's memory; null: the system provides it
 };
@@ -24,7 +23,6 @@ struct FurTreeOptions {
 struct FurTreeView {
   const std::byte* nodes = nullptr;  ///< the root first; null: the tree is empty
   const std::byte* leaves = nullptr;
-  FurNodeLayout layout = FurNodeLayout::kQuantised;
   int motion_keys = 1;
   float step = 1;   ///< of the grid
   V3f anchor{0};    ///< of the grid
@@ -36,7 +34,7 @@ struct FurTreeView {
 /// cubic segments in blocks of four. A segment is a ribbon that faces the ray. A ray hits a segment at
 /// parameter u if the distance between the ray and the segment's axis has a local minimum at u that is less
 /// than the radius at u. Whether and where a ray hits a segment is a function of the ray and the segment
-/// only. It depends neither on the tree's structure and layout, nor on the instruction set or the ray's far
+/// only. It depends neither on the tree's structure, nor on the instruction set or the ray's far
 /// end.
 ///
 /// All nodes and leaves are in one block of memory without pointers. Points are snapped (see FurGrid). The
@@ -68,7 +66,7 @@ class FurTree {
   /// Max bytes of memory in use while this tree was built, including the tree itself.
   size_t build_bytes() const { return build_bytes_; }
   /// Upper bound of build_bytes() for any tree over `segments` segments.
-  static size_t build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options);
+  static size_t build_bytes_bound(size_t segments, int motion_keys);
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
 
@@ -81,11 +79,8 @@ class FurTree {
   FurBox box_;
 };
 
-/// Like FurTree::closest() and FurTree::occluded(), for any view. They add the numbers of their tests to
-/// `tests`, unless `tests` is null.
-FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                   FurTests* tests = nullptr);
-bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                  FurTests* tests = nullptr);
+/// Like FurTree::closest() and FurTree::occluded(), for any view.
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
 
 }  // namespace pelage

@@ -38,9 +38,9 @@ PELAGE_FUR_INLINE void order(size_t count, uint32_t* references, float* enters) 
 /// Traverses the tree, roughly front to back. Prefetches what will be visited later: leaves are deferred
 /// until a few of them have accumulated, and where the order does not matter every node is deferred for one
 /// visit.
-template <class Slabs, bool kMoving, class Query>
+template <bool kMoving, class Query>
 PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
-  const Slabs slabs(tree, ray);
+  const QuantisedSlabs<kMoving> slabs(ray);
   uint32_t nodes[kStack], leaves[kDeferred + 8];
   float node_enters[kStack], leaf_enters[kDeferred + 8];
   nodes[0] = 0;
@@ -54,7 +54,6 @@ PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& q
       if (!Query::kOrdered && node_count > 0 && node_count < kMixed) std::swap(next, nodes[node_count - 1]);
       if (Query::kOrdered && next_enter > query.far()) continue;
       const std::byte* node = tree.nodes + FurReference::from_bits(next).node_offset();
-      if constexpr (Query::kCounts) query.tests.boxes += 4;
       V enter = all(ray.near);
       const auto met = slabs.intersect(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));

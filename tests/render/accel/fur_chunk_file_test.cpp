@@ -216,11 +216,11 @@ TEST_F(FurChunkFileTest, refuses_what_no_chunk_is) {
     return file && file->read(0, sink()) != nullptr;
   };
   float low = 0;
-  std::memcpy(&low, &whole[head + 36], sizeof(low));
-  EXPECT_TRUE(is_read_with(head + 36, low));
+  std::memcpy(&low, &whole[head + 32], sizeof(low));
+  EXPECT_TRUE(is_read_with(head + 32, low));
   // A box that holds nothing.
-  EXPECT_FALSE(is_read_with(head + 36, std::numeric_limits<float>::quiet_NaN()));
-  EXPECT_FALSE(is_read_with(head + 36, 1e20f));
+  EXPECT_FALSE(is_read_with(head + 32, std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_FALSE(is_read_with(head + 32, 1e20f));
   // A segment that is another, that there is not, or that has no number.
   EXPECT_TRUE(is_read_with(leaves + 16, uint32_t(1)));
   EXPECT_FALSE(is_read_with(leaves + 16, uint32_t(1000000)));

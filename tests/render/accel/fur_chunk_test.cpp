@@ -72,8 +72,7 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   turned.eager = true;
   expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), turned), 6,
               repetitions(1500) * more);
-  eager.fur.tree.layout = FurNodeLayout::kFloat;
-  eager.fur.tree.build.cuts = 0.3f;
+  eager.fur.tree.build.node_cost = 3;
   expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3,
               repetitions(2500) * more);
 }

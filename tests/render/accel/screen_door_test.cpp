@@ -111,7 +111,7 @@ TEST_F(ScreenDoorTest, AnyChunksAnswerAsOne) {
     for (const AccelKind accel : kAccelKinds) {
       ResidentChunksOptions eager = options_of(accel, CurveShape::kFlat, true), lazy = eager;
       eager.eager = true;
-      eager.fur.tree.layout = FurNodeLayout::kFloat;
+      eager.fur.tree.build.node_cost = 0;
       expect_same(*make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager),
                   *make(chunks, chunks.measured_bounds(1), lazy), 1, repetitions(2000));
     }

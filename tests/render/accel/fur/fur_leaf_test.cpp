@@ -122,8 +122,8 @@ TEST(FurNode, quantised_boxes_hold_the_boxes) {
                                              static_cast<size_t>(keys));
       children[c] = {FurReference::to_leaf(16 * c, 1, false), of_child};
     }
-    std::vector<std::byte> node(node_size(FurNodeLayout::kQuantised, keys));
-    write_node(FurNodeLayout::kQuantised, keys, std::span(children, count), node.data());
+    std::vector<std::byte> node(FurQuantisedNode::size(keys));
+    write_node(keys, std::span(children, count), node.data());
     float origin[3], scale[3];
     std::memcpy(origin, node.data() + FurQuantisedNode::kOrigin, sizeof(origin));
     std::memcpy(scale, node.data() + FurQuantisedNode::kScale, sizeof(scale));

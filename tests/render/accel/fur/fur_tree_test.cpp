@@ -17,12 +17,9 @@ namespace {
 constexpr size_t kStrands = 300;
 constexpr uint64_t kRays = repetitions(2500);
 
-FurTreeOptions options_of(FurNodeLayout layout, float cuts = 0, float node_cost = 1,
-                          FurRotation rotation = FurRotation::kNever) {
+FurTreeOptions options_of(float node_cost, FurRotation rotation = FurRotation::kNever) {
   FurTreeOptions options;
   options.build.rotation = rotation;
-  options.layout = layout;
-  options.build.cuts = cuts;
   options.build.node_cost = node_cost;
   return options;
 }
@@ -57,7 +54,7 @@ class FurTreeOf : public testing::TestWithParam<GroomShape> {
   FurTreeOf()
       : strands_(random_groom(GetParam(), kStrands, 7)),
         snapped_(strands_, FurGrid(GetParam().width)),
-        tree_(snapped_, options_of(FurNodeLayout::kFloat)) {}
+        tree_(snapped_, options_of(1)) {}
 
   template <class Check>
   void with_rays(const Check& check) {
@@ -79,14 +76,10 @@ class FurTreeOf : public testing::TestWithParam<GroomShape> {
   FurTree tree_;
 };
 
-TEST_P(FurTreeOf, answers_alike_in_every_layout_and_shape) {
-  const FurTree others[] = {
-      FurTree(snapped_, options_of(FurNodeLayout::kQuantised)),
-      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 0)),
-      FurTree(snapped_, options_of(FurNodeLayout::kFloat, 0.5f, 3)),
-      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 2, 1)),
-      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 1, FurRotation::kAlways)),
-      FurTree(snapped_, options_of(FurNodeLayout::kFloat, 1, 1, FurRotation::kAlways))};
+TEST_P(FurTreeOf, answers_alike_in_every_shape) {
+  const FurTree others[] = {FurTree(snapped_, options_of(0)), FurTree(snapped_, options_of(3)),
+                            FurTree(snapped_, options_of(1, FurRotation::kAlways)),
+                            FurTree(snapped_, options_of(3, FurRotation::kAlways))};
   with_rays([&](const Ray& ray, const FurHit& expected, uint64_t i) {
     for (const FurTree& other : others) {
       ASSERT_TRUE(same_bits(expected, other.closest(ray, {}))) << i;
@@ -119,14 +112,13 @@ TEST_P(FurTreeOf, answers_alike_however_it_is_cut_into_chunks) {
 }
 
 TEST_P(FurTreeOf, answers_alike_on_every_instruction_set) {
-  const FurTree quantised(snapped_, options_of(FurNodeLayout::kQuantised));
   for (const int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
     hwy::SetSupportedTargetsForTest(0);
     if (target != HWY_EMU128 && (hwy::SupportedTargets() & target) == 0) continue;
     with_rays([&](const Ray& ray, const FurHit& expected, uint64_t i) {
       hwy::SetSupportedTargetsForTest(target);
       hwy::GetChosenTarget().Update(target);
-      const FurHit hit = quantised.closest(ray, {});
+      const FurHit hit = tree_.closest(ray, {});
       const bool occluded = tree_.occluded(ray, {});
       hwy::SetSupportedTargetsForTest(0);
       hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -137,10 +129,9 @@ TEST_P(FurTreeOf, answers_alike_on_every_instruction_set) {
 }
 
 TEST_P(FurTreeOf, holds_together_wherever_it_stands) {
-  const FurTree tree(snapped_, options_of(FurNodeLayout::kQuantised));
-  PageBlock copy(tree.bytes());
-  std::memcpy(copy.data(), tree.view().nodes, tree.bytes());
-  FurTreeView view = tree.view();
+  PageBlock copy(tree_.bytes());
+  std::memcpy(copy.data(), tree_.view().nodes, tree_.bytes());
+  FurTreeView view = tree_.view();
   view.leaves = copy.data() + (view.leaves - view.nodes);
   view.nodes = copy.data();
   with_rays([&](const Ray& ray, const FurHit& expected, uint64_t i) {
@@ -166,7 +157,7 @@ TEST(FurTree, is_the_same_every_time) {
 TEST(FurTree, fills_its_lanes) {
   const Strands strands = random_groom(groom_shapes()[0], 3000, 1);
   const SnappedStrands snapped(strands, FurGrid(0.02f));
-  const FurTree tree(snapped, options_of(FurNodeLayout::kQuantised));
+  const FurTree tree(snapped, {});
   const double blocks = static_cast<double>(tree.leaf_bytes()) / static_cast<double>(kNarrowBlock.block(1));
   EXPECT_GT(snapped.segment_count() / (4 * blocks), 0.97);
 }
