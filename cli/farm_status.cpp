@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
+#include "cli/progress_display.h"
 #include "farm/shot_page.h"
 
 namespace pelage {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "cli/options.h"
 #include "cli/run.h"
 #include "post/band_job.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cli/options.h"
 #include "cli/run.h"
 #include "world/scene_schema.h"
 

@@ -7,11 +7,11 @@
 
 #include "base/counted.h"
 #include "base/program.h"
-#include "cli/commands.h"
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
 #include "cli/report_error.h"
 #include "cli/signals.h"
+#include "lab/lab_options.h"
 #include "lab/measure/experiments.h"
 #include "lab/report/machine.h"
 #include "lab/report/report_files.h"
@@ -19,19 +19,14 @@
 namespace pelage {
 namespace {
 
-const char* experiment_name(Experiment experiment) {
-  return experiment == Experiment::kBounds     ? "bounds"
-         : experiment == Experiment::kGrowth   ? "growth"
-         : experiment == Experiment::kSamplers ? "samplers"
-         : experiment == Experiment::kLod      ? "lod"
-         : experiment == Experiment::kShading  ? "shading"
-         : experiment == Experiment::kBounces  ? "bounces"
-                                               : "residency";
-}
-
-MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
+MeasureSetup setup_of(const LabOptions& options, const SceneDescription& scene) {
   MeasureSetup setup;
-  setup.program = current_program();
+  const auto program = find_sibling_program("pelage");
+  if (!program) {
+    throw Error(ErrorKind::kFailed, "the program pelage, which every run starts, is not in " +
+                                        current_program().parent_path().string());
+  }
+  setup.program = *program;
   setup.scene = options.input;
   setup.repeat = options.repeat;
   setup.time_limit_s = options.time_limit_s;
@@ -62,7 +57,7 @@ std::string picture_text(const SceneDescription& scene, Experiment experiment) {
                      scene.camera.shutter.y, scene.render.seed);
 }
 
-Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
+Measured run_experiment(const LabOptions& options, const SceneDescription& scene, const MeasureSetup& setup,
                         ProgressDisplay& display) {
   switch (options.experiment) {
     case Experiment::kBounds:
@@ -86,7 +81,7 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
 
 }  // namespace
 
-int run_measure(const Options& options) {
+int run_measure(const LabOptions& options) {
   const SignalGuard signals;
   ProgressDisplay display(options.progress, &SignalGuard::interrupted);
   const SceneDescription scene = read_scene(options, display);
@@ -124,7 +119,6 @@ int run_measure(const Options& options) {
   report.runs = runs_json(measured.outcomes);
 
   write_report(setup.folder, report);
-  write_report_figures(setup.folder, report);
   std::cout << (setup.folder / "report.html").string() << "\n";
   if (interrupted) return SignalGuard::exit_code();
   // A refused budget, or one so small that it takes too long, is a result when budgets are measured;

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.h"
+#include "base/error.h"
+#include "lab/lab_options.h"
 #include "tests/world/small_scene.h"
 
 namespace pelage {
@@ -19,9 +20,8 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
-Options compare_options(const SmallScene& scene) {
-  Options options;
-  options.command = Command::kCompare;
+LabOptions compare_options(const SmallScene& scene) {
+  LabOptions options;
   options.input = scene.path("scene.yaml");
   options.output = scene.path("out");
   options.progress = ProgressStyle::kQuiet;
@@ -31,7 +31,7 @@ Options compare_options(const SmallScene& scene) {
 
 TEST(CompareCommand, WritesASheetATableAndAReport) {
   const SmallScene scene;
-  Options options = compare_options(scene);
+  LabOptions options = compare_options(scene);
   options.models = {"chiang", "cone-shell"};
   ASSERT_EQ(run_compare(options), 0);
   for (const char* file : {"contact_sheet.png", "single_fibres.png"})
@@ -51,7 +51,7 @@ TEST(CompareCommand, WritesASheetATableAndAReport) {
 
 TEST(CompareCommand, SaysWhatItNeeds) {
   const SmallScene scene;
-  Options options = compare_options(scene);
+  LabOptions options = compare_options(scene);
   options.overrides = {{"characters.walker.parts.0.grooms", "{}"}};
   EXPECT_THROW(run_compare(options), Error);
   options = compare_options(scene);

@@ -6,18 +6,16 @@
 
 #include "base/file.h"
 #include "base/program.h"
-#include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/read_scene.h"
 #include "cli/report_error.h"
 #include "cli/run.h"
 #include "lab/compare/compare_models.h"
 #include "lab/compare/contact_sheet.h"
+#include "lab/lab_options.h"
 #include "lab/report/machine.h"
-#include "lab/report/picture_svg.h"
 #include "lab/report/png.h"
 #include "lab/report/report_files.h"
-#include "lab/report/svg.h"
 
 namespace pelage {
 namespace {
@@ -31,15 +29,9 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
   throw Error(ErrorKind::kInput, input + ": the scene has no character with fur");
 }
 
-// NAME.svg with text, and NAME.png with pixels only.
-void write_sheet(std::filesystem::path name, const Picture& sheet) {
-  write_file(name.replace_extension(".svg"), standalone_svg(picture_svg(sheet)));
-  write_file(name.replace_extension(".png"), png_bytes(sheet));
-}
-
 }  // namespace
 
-int run_compare(const Options& options) {
+int run_compare(const LabOptions& options) {
   Run run(options);
   const SceneDescription scene = read_scene(options, run.display());
   check_fur(scene, options.input);
@@ -66,9 +58,9 @@ int run_compare(const Options& options) {
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));
     if (interrupted) report.abstract = "Interrupted: the comparison is incomplete. " + report.abstract;
     report.runs = fibres_json(comparison.fibres);
-    write_sheet(folder / "contact_sheet", contact_sheet(comparison.frames));
+    write_file(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)));
     if (!comparison.fibres.empty())
-      write_sheet(folder / "single_fibres", single_fibre_sheet(comparison.fibres));
+      write_file(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)));
     write_report(folder, report);
     std::cout << (folder / "report.html").string() << "\n";
   }
