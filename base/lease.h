@@ -27,8 +27,8 @@ struct LeaseTiming {
 /// lease is taken at once, because the system has released its lock (flock).
 ///
 /// What the file system must guarantee: creating a file exclusively (O_EXCL) and renaming are atomic, and a
-/// file that is opened shows what was flushed before (close-to-open consistency). NFS 3 and 4 do, and local
-/// file systems. Locks (flock) are not needed; without them, a dead holder on the same machine is noticed
+/// file that is opened shows what was flushed before (close-to-open consistency). NFS 3 and 4 and local
+/// file systems do. Locks (flock) are not needed; without them, a dead holder on the same machine is noticed
 /// after `expiry`.
 ///
 /// In rare cases, two processes hold a lease at once: if the holder was suspended for longer than `expiry`,

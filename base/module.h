@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// A shared library that the constructor opens and the destructor closes.
+/// A loadable module: a shared library that the constructor opens and the destructor closes.
 class Module {
  public:
   /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable, then, if this

@@ -49,6 +49,13 @@ void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Pro
     problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
     return;
   }
+  for (const Removed& removed : schema.removed()) {
+    if (removed.name != entry.key) continue;
+    const bool harmless = entry.value.is_scalar() && entry.value.text() == removed.harmless;
+    if (!harmless || removed.harmless.empty())
+      problems.add(entry.key_position, quote(entry.key) + " was removed: " + removed.advice);
+    return;
+  }
   const std::vector<std::string> names = schema.key_names();
   problems.add(entry.key_position,
                "unknown key " + quote(entry.key) + " in " + schema.name() + suggest(entry.key, names));

@@ -38,6 +38,14 @@ namespace pelage {
 // of its type. base/value_readers.h has ValueReaders for numbers, strings, vectors, paths, enumerations,
 // lists and maps; other folders add more.
 
+/// A key or a value of a key that an earlier release had.
+struct Removed {
+  std::string name;    ///< of the key, or the value
+  std::string advice;  ///< the end of "was removed: ..."
+  /// Value of a removed key that scenes may still set, because Pelage always does what it meant; "": none.
+  std::string harmless = {};
+};
+
 /// Constraints on a key's value, and its description in the manual.
 struct KeyOptions {
   std::string unit = {};
@@ -49,6 +57,7 @@ struct KeyOptions {
   std::string default_text =
       {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
   std::vector<std::string> old_names = {};  ///< names of this key in earlier releases
+  std::vector<Removed> removed = {};        ///< values of an enumeration in earlier releases
 };
 
 class SchemaInfo;
@@ -99,6 +108,9 @@ class SchemaInfo {
   const KeyInfo* find(std::string_view name) const;
   /// Returns the key of which `old_name` is a former name, or nullptr.
   const KeyInfo* find_renamed(std::string_view old_name) const;
+  /// Adds a key that this table no longer has. A scene that sets it is told so.
+  void remove(Removed key) { removed_.push_back(std::move(key)); }
+  const std::vector<Removed>& removed() const { return removed_; }
 
   /// Excerpt of a scene file that uses this block, with all enclosing keys. The manual prints it; a test
   /// parses it.
@@ -114,6 +126,7 @@ class SchemaInfo {
   std::string example_;
   std::string picture_;
   std::vector<KeyInfo> keys_;
+  std::vector<Removed> removed_;
 };
 
 /// Reads a T from a Value. Specialisations provide
@@ -165,6 +178,7 @@ void describe_value(const T& value, const std::string& key, std::vector<Paramete
     out.push_back(std::move(one));
   }
 }
+/// Adds a problem, unless the key is a removed one with its harmless value.
 void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems);
 void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key,
                         Problems& problems);

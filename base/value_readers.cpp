@@ -270,12 +270,18 @@ std::string ValueReader<Rgb>::print(const Rgb& v) { return print_vector(v, 3); }
 
 namespace detail {
 
-bool read_enum(const Value& value, std::span<const char* const> names, int& out, Problems& problems) {
+bool read_enum(const Value& value, std::span<const char* const> names, const KeyOptions& options, int& out,
+               Problems& problems) {
   if (value.is_scalar()) {
     for (size_t i = 0; i < names.size(); ++i) {
       if (value.text() != names[i]) continue;
       out = static_cast<int>(i);
       return true;
+    }
+    for (const Removed& removed : options.removed) {
+      if (value.text() != removed.name) continue;
+      problems.add(value.position(), quote(removed.name) + " was removed: " + removed.advice);
+      return false;
     }
   }
   const std::vector<std::string> candidates(names.begin(), names.end());

@@ -155,7 +155,7 @@ struct ValueReader<Rgb> {
 };
 
 namespace detail {
-bool read_enum(const Value&, std::span<const char* const> names, int& out, Problems&);
+bool read_enum(const Value&, std::span<const char* const> names, const KeyOptions&, int& out, Problems&);
 std::string enum_type_name(std::span<const char* const> names);
 /// Returns the value of `key`, which selects the kind of a block. If this value is missing or not one of
 /// `kinds`, returns nullptr and adds a problem.
@@ -164,9 +164,9 @@ const Value* find_type(const Value& block, const char* key, std::span<const std:
 
 template <class E>
 struct ValueReader<E, std::enable_if_t<std::is_enum_v<E>>> {
-  static bool read(const Value& value, const KeyOptions&, E& out, Problems& problems) {
+  static bool read(const Value& value, const KeyOptions& options, E& out, Problems& problems) {
     int index = 0;
-    if (!detail::read_enum(value, EnumNames<E>::names, index, problems)) return false;
+    if (!detail::read_enum(value, EnumNames<E>::names, options, index, problems)) return false;
     out = static_cast<E>(index);
     return true;
   }

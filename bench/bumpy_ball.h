@@ -9,7 +9,7 @@
 namespace pelage {
 
 /// The furry bumpy ball that other renderers were measured on: an ellipsoid of radius about 1 with bumps,
-/// short fur of 8 points per strand combed by smooth noise, drooping, frizzy and drawn into about 2,500
+/// short fur of 8 points per strand combed by smooth noise, drooping, frizzy and pulled into about 2,500
 /// clumps. The radius shrinks with the number of strands so that coverage stays the same.
 struct BumpyBall {
   Strands strands;

@@ -11,7 +11,7 @@
 //   bias            mean of a - b over mean of b, and its standard error
 //
 // `weights`: rho / pdf of single samples, with inclination, place across the fibre, roughness and colour
-// drawn uniformly; for the channel with the largest weight and (grey) for the mean of the channels.
+// uniformly random; for the channel with the largest weight and (grey) for the mean of the channels.
 #include <algorithm>
 #include <cmath>
 #include <memory>

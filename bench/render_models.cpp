@@ -4,7 +4,7 @@
 // ends at its first hit.
 //
 //   Time    construct: from a colour, a place on a fibre and a view to a value
-//           eval and pdf: of that value, for one direction; sample: draws one, with its value and pdf
+//           eval and pdf: of that value, for one direction; sample: samples one, with its value and pdf
 //   x_ray   the same over an incoherent ray
 #include <memory>
 #include <vector>

@@ -44,9 +44,9 @@ bool is_slurm_time(const std::string& text) {
 }  // namespace
 
 void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
-  farm.add_option(
-          "ACTION", texts.action,
-          "plan: print the tasks of a shot; submit: give them to Slurm; status, cancel: of a submitted shot")
+  farm.add_option("ACTION", texts.action,
+                  "plan: print the tasks of a shot; submit: submit them to Slurm; status: show, cancel: "
+                  "cancel a submitted shot")
       ->required();
   farm.add_option("--regions", texts.regions,
                   "Divide each frame into columns x rows, such as 4x4 (default: one task per frame)")
@@ -60,7 +60,7 @@ void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
   farm.add_flag("--json", options.json, "plan, status: print JSON (default: a command per line, or text)");
   farm.add_option("--partition", options.partition, "submit: partition of Slurm")->type_name("NAME");
   farm.add_option("--time", options.time,
-                  "submit: time limit of a task, in minutes or as Slurm reads it; a task that meets it "
+                  "submit: time limit of a task, in minutes or as Slurm reads it; a task that reaches it "
                   "continues later")
       ->type_name("TIME");
   farm.add_option("--sbatch", options.sbatch,

@@ -84,8 +84,9 @@ void add_why(CLI::App& app, Options& options, Texts& texts) {
       ->check(whole_number());
   why->add_option("Y", options.pixel_y, "Row of the pixel; 0 is the top")->required()->check(whole_number());
   why->add_flag("--json", options.json, "Print JSON");
-  why->add_option("-o,--output", options.output,
-                  "Picture to write (.png, .jpg): the surroundings of the pixel, with its strand drawn over")
+  why->add_option(
+         "-o,--output", options.output,
+         "Picture to write (.png, .jpg): the surroundings of the pixel, with its strand drawn over them")
       ->type_name("FILE.png");
   why->add_option("--frames", texts.frames, "Frame of the pixel (default: the scene's first)")
       ->type_name("FRAME");

@@ -45,7 +45,7 @@ void add_picture_flags(CLI::App& render, PictureOptions& picture, PictureTexts& 
   render.add_option("--samples", picture.samples, "Samples per pixel (sets render.samples)")
       ->check(CLI::Range(1, 1 << 20))
       ->type_name("N");
-  render.add_option("--scale", picture.scale, "Factor of the picture's width and height, such as 0.25")
+  render.add_option("--scale", picture.scale, "Factor on the picture's width and height, such as 0.25")
       ->check(positive_number())
       ->type_name("FACTOR");
   render

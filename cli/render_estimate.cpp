@@ -25,8 +25,7 @@ void print_text(const RunEstimate& estimate, int threads) {
         estimate.frames[i], memory_text(e.peak_bytes()), memory_text(e.scene_bytes),
         memory_text(e.film_bytes), memory_text(e.box_bytes), memory_text(e.chunk_bytes),
         e.fits ? "" : " (limited by render.memory)", memory_text(e.library_bytes),
-        part_if_any("sample buffers", e.buffer_bytes),
-        part_if_any("shadows", e.shadows.held_bytes + e.shadows.learning_bytes));
+        part_if_any("sample buffers", e.buffer_bytes), part_if_any("shadows", e.shadows.held_bytes));
     const double cpu_s = estimate.cpu_s(i);
     std::cout << fmt::format("frame {}: about {} of CPU time, {} on {}; {}, {}\n", estimate.frames[i],
                              duration_text(cpu_s), duration_text(cpu_s / threads), counted(threads, "thread"),
@@ -48,7 +47,6 @@ nlohmann::ordered_json json_of(const RunEstimate& estimate, size_t i) {
             {"measuring", e.measuring_bytes},
             {"buffers", e.buffer_bytes},
             {"shadows", e.shadows.held_bytes},
-            {"learning", e.shadows.learning_bytes},
             {"balls", e.shadows.making_bytes},
             {"chunks", e.chunk_bytes},
             {"writing", e.writing_bytes}}},

@@ -12,7 +12,7 @@ namespace pelage {
 void add_rib_use_flags(CLI::App& command, RibUseOptions& options) {
   command
       .add_option("--materials", options.materials,
-                  "YAML file: from the shaders of RIB files to materials (docs/RIB.md)")
+                  "YAML file that maps the shaders of RIB files to materials (docs/RIB.md)")
       ->type_name("FILE.yaml");
   command.add_flag("--allow-procedurals", options.allow_procedurals,
                    "Run the programs that RIB files name (RunProgram)");

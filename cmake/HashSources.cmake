@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -D OUT=file.cpp -D ROOT=folder -D ROOMS=base,geom -D BUILD=text -P HashSources.cmake
-# Writes a source file with the hash of all sources of these rooms and of BUILD, for pelage::growth_identity().
+# Writes a source file with the hash of all sources of these modules and of BUILD, for pelage::growth_identity().
 string(REPLACE "," ";" ROOMS "${ROOMS}")
 set(all "${BUILD}")
 foreach(room IN LISTS ROOMS)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Every library we use, under one name of ours each (pelage::dep_*), so that no other file sees a version or a
-# broken package. An installed Pelage includes this same file. Which room may use which: docs/ARCHITECTURE.md.
+# broken package. An installed Pelage includes this same file. Which module may use which: docs/ARCHITECTURE.md.
 function(pelage_dependency name)
   if(NOT TARGET pelage::dep_${name})
     add_library(pelage::dep_${name} INTERFACE IMPORTED GLOBAL)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 include(GNUInstallDirs)
 
-# What most sources parse anyway, parsed once for all rooms. The dev preset goes without, so that a missing include
+# What most sources parse anyway, parsed once for all modules. The dev preset goes without, so that a missing include
 # shows.
 add_library(pelage_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
 target_link_libraries(pelage_headers PRIVATE pelage_options pelage_warnings pelage::dep_imath)
@@ -12,8 +12,8 @@ target_precompile_headers(pelage_headers PRIVATE
 
 # Compiling eight sources as one takes less than half the time. The preset dev compiles each by itself, so that a
 # missing include shows and one changed file is compiled quickly. A source listed after ALONE is always compiled by
-# itself, because another source of the room has a private name in common with it.
-option(PELAGE_JOIN_SOURCES "Compile several sources of a room as one" ON)
+# itself, because another source of the module has a private name in common with it.
+option(PELAGE_JOIN_SOURCES "Compile several sources of a module as one" ON)
 function(pelage_join_sources target)
   if(PELAGE_JOIN_SOURCES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
@@ -21,8 +21,8 @@ function(pelage_join_sources target)
   endif()
 endfunction()
 
-# pelage_library(NAME SOURCES ... [ALONE ...] DEPS rooms... [PUBLIC_LIBS dep...] [PRIVATE_LIBS dep...])
-# One room as a static library, target pelage_NAME, alias pelage::NAME. DEPS are lower rooms; PUBLIC_LIBS are
+# pelage_library(NAME SOURCES ... [ALONE ...] DEPS modules... [PUBLIC_LIBS dep...] [PRIVATE_LIBS dep...])
+# One module as a static library, target pelage_NAME, alias pelage::NAME. DEPS are lower modules; PUBLIC_LIBS are
 # libraries whose headers our headers show (only Imath, as a rule), PRIVATE_LIBS those that stay inside.
 function(pelage_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;PUBLIC_LIBS;PRIVATE_LIBS" ${ARGN})
@@ -56,7 +56,7 @@ endfunction()
 
 # One test program. Every TEST in it becomes a test of CTest's own; with a sanitizer, where every start of a program
 # costs more than most tests, CTest runs it in a few shards.
-function(pelage_test_program target room label)
+function(pelage_test_program target module label)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
   pelage_join_sources(${target} ${ARG_ALONE})
@@ -69,12 +69,12 @@ function(pelage_test_program target room label)
   target_precompile_headers(${target} REUSE_FROM pelage_test_headers)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT PELAGE_SANITIZE)
-    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES TEST_LIST ${target}_TESTS
+    gtest_discover_tests(${target} TEST_PREFIX ${module}. NO_PRETTY_VALUES TEST_LIST ${target}_TESTS
                          DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
     # PROPERTIES above cannot hold a list.
     set(labels ${CMAKE_CURRENT_BINARY_DIR}/${target}_labels.cmake)
     file(WRITE ${labels} "foreach(test IN LISTS ${target}_TESTS)
-  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${room};${label}\")
+  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${module};${label}\")
 endforeach()
 ")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
@@ -84,21 +84,21 @@ endforeach()
   math(EXPR shards "(${shards} + 9) / 10")
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
-    add_test(NAME ${room}.${shard} COMMAND ${target} --gtest_brief=1)
-    set_tests_properties(${room}.${shard} PROPERTIES LABELS "${room};${label}" TIMEOUT 1800
+    add_test(NAME ${module}.${shard} COMMAND ${target} --gtest_brief=1)
+    set_tests_properties(${module}.${shard} PROPERTIES LABELS "${module};${label}" TIMEOUT 1800
                          ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
 
-# pelage_test(ROOM [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [ALONE ...] [DEPS rooms...]
+# pelage_test(MODULE [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [ALONE ...] [DEPS modules...]
 #             [LIBS dep...] [LABEL unit|slow])
-# The tests of a room. A source belongs to one of three lists, and so to the builds that can find something in it:
+# The tests of a module. A source belongs to one of three lists, and so to the builds that can find something in it:
 #   SOURCES     what one thread computes: release and the address sanitizer
 #   THREADED    what several threads share: these two and the thread sanitizer
 #   STATISTICS  means and distributions of many samples (label `stat`): release alone; single evaluations of the same
 #               code are among the others
-# SUPPORT is compiled into every program of the room.
-function(pelage_test room)
+# SUPPORT is compiled into every program of the module.
+function(pelage_test module)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;ALONE;DEPS;LIBS" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
@@ -108,19 +108,19 @@ function(pelage_test room)
     list(APPEND sources ${ARG_SOURCES})
   endif()
   if(sources)
-    pelage_test_program(test_${room} ${room} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} ALONE ${ARG_ALONE} DEPS ${ARG_DEPS}
+    pelage_test_program(test_${module} ${module} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} ALONE ${ARG_ALONE} DEPS ${ARG_DEPS}
                         LIBS ${ARG_LIBS})
   endif()
   if(ARG_STATISTICS AND NOT PELAGE_SANITIZE)
-    pelage_test_program(test_${room}_statistics ${room} stat SOURCES ${ARG_STATISTICS} ${ARG_SUPPORT} DEPS ${ARG_DEPS}
+    pelage_test_program(test_${module}_statistics ${module} stat SOURCES ${ARG_STATISTICS} ${ARG_SUPPORT} DEPS ${ARG_DEPS}
                         LIBS ${ARG_LIBS})
   endif()
 endfunction()
 
-# pelage_bench(ROOM SOURCES ... DEPS rooms... [LIBS dep...]): one Google Benchmark program per room.
-function(pelage_bench room)
+# pelage_bench(MODULE SOURCES ... DEPS modules... [LIBS dep...]): one Google Benchmark program per module.
+function(pelage_bench module)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
-  set(target bench_${room})
+  set(target bench_${module})
   add_executable(${target} ${ARG_SOURCES})
   list(TRANSFORM ARG_DEPS PREPEND pelage_)
   list(TRANSFORM ARG_LIBS PREPEND pelage::dep_)

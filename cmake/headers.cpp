@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing but a source for the precompiled headers that the rooms share.
+// Nothing but a source for the precompiled headers that the modules share.

@@ -4,7 +4,7 @@
 
   make_furball.py [--strands N] [FOLDER]
 
-A bumpy ball of radius about 1 with strands of 8 points, combed by smooth noise, drooping, frizzy, and drawn into
+A bumpy ball of radius about 1 with strands of 8 points, combed by smooth noise, drooping, frizzy, and pulled into
 about 2,500 clumps, between two rectangle lights under a constant sky. The radius of the strands shrinks with
 their number, so that coverage stays the same. 100,000 strands take about 25 s and 14 MB. Needs only Python 3.
 """
@@ -83,7 +83,7 @@ def random_direction(rng):
 
 
 def grow(rng, lie, frizz, index):
-    """Points of a strand, not yet drawn to its clump."""
+    """Points of a strand before it is pulled to its clump."""
     d = random_direction(rng)
     root = surface(d)
     n, comb, wild = normal(d), smooth_noise(lie, root, 1.2), random_direction(rng)

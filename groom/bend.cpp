@@ -75,10 +75,6 @@ float Bend::largest_angle() const {
   return std::clamp(params_.angle.value_range().second, 0.0f, 180.0f) * kRadians;
 }
 
-float Bend::displacement_bound(const StrandReach& before) const {
-  return turn_bound(before, {params_.start, 1, params_.profile}, largest_angle());
-}
-
 StrandReach Bend::reach_after(const StrandReach& before) const {
   StrandReach after = before;
   after.lean = std::min(before.lean + largest_angle(), std::numbers::pi_v<float>);

@@ -24,10 +24,9 @@ class Bend final : public OperatorOf<BendParams> {
   static constexpr const char* kName = "bend";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
+  OperatorTraits traits() const override { return {.name = kName}; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

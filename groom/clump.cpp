@@ -89,7 +89,7 @@ void Clump::prepare(const PrepareContext& context) {
     const uint64_t level_seed = hash64(seed_, levels_.size());
     const auto grow = [&](StrandBatch& batch) {
       for (const auto& op : context.preceding) {
-        if (op->reads_rest_only()) op->apply(batch);
+        if (op->traits().reads_rest_only) op->apply(batch);
       }
       draw(batch, levels_.size());
     };
@@ -185,17 +185,6 @@ Clump::Pull Clump::pull() const {
   }
   result.amount = 1 - result.amount;
   return result;
-}
-
-float Clump::displacement_bound(const StrandReach& before) const {
-  // A point P and its points on the centre strands are within D = root distances + reach of P + arc length of
-  // the centres of each other. All levels together move P by d <= K D, with 1 - K the product of their (1 -
-  // k).
-  const auto [amount, roots] = pull();
-  const float drawn = amount * (roots + before.distance + before.length);
-  // Scaling back moves P + d towards the root: never farther from P than the longer of |P| and |d|.
-  const float moved = drawn >= before.distance ? drawn : drawn * (1 + kStretch);
-  return std::min(moved, before.distance + reach_after(before).distance);
 }
 
 StrandReach Clump::reach_after(const StrandReach& before) const {

@@ -47,11 +47,9 @@ class Clump final : public OperatorOf<ClumpParams> {
   static constexpr const char* kName = "clump";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
-  bool runs_preceding() const override { return true; }
+  OperatorTraits traits() const override { return {.name = kName, .runs_preceding = true}; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

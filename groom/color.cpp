@@ -38,11 +38,16 @@ void Color::prepare(const PrepareContext& context) {
   params_.value = params_.value.with_textures(context.textures);
 }
 
-std::optional<AttributeClass> Color::colors() const {
+OperatorTraits Color::traits() const {
   const FieldDependence needs = params_.value.dependence();
-  if (needs.along) return AttributeClass::kPerPoint;
   const bool same = !needs.surface && !needs.attributes && params_.variation == 0;
-  return same ? AttributeClass::kConstant : AttributeClass::kPerStrand;
+  return {.name = kName,
+          .colors = needs.along ? AttributeClass::kPerPoint
+                    : same      ? AttributeClass::kConstant
+                                : AttributeClass::kPerStrand,
+          .replaces_colors = !needs.attributes,
+          .attributes_only = true,
+          .rest_use = needs.rest ? RestUse::kPositions : RestUse::kNone};
 }
 
 Operator::Brightness Color::brightness(uint64_t seed, uint64_t strand_id) const {

@@ -20,17 +20,10 @@ class Color final : public OperatorOf<ColorParams> {
   static constexpr const char* kName = "color";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
-  std::optional<AttributeClass> colors() const override;
+  OperatorTraits traits() const override;
   Brightness brightness(uint64_t seed, uint64_t strand_id) const override;
-  bool replaces_colors() const override { return !params_.value.dependence().attributes; }
-  bool attributes_only() const override { return true; }
-  RestUse rest_use() const override {
-    return params_.value.dependence().rest ? RestUse::kPositions : RestUse::kNone;
-  }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach&) const override { return 0; }
   StrandReach reach_after(const StrandReach& before) const override { return before; }
 
  private:

@@ -91,10 +91,6 @@ float Comb::largest_turn(const StrandReach& before) const {
   return amount * std::min(lean + target, std::numbers::pi_v<float>);
 }
 
-float Comb::displacement_bound(const StrandReach& before) const {
-  return turn_bound(before, {0, params_.curve, 1}, largest_turn(before));
-}
-
 StrandReach Comb::reach_after(const StrandReach& before) const {
   StrandReach after = before;
   after.lean = std::min(before.lean + largest_turn(before), std::numbers::pi_v<float>);

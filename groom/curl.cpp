@@ -87,15 +87,11 @@ void Curl::apply(StrandBatch& batch) const {
   }
 }
 
-float Curl::displacement_bound(const StrandReach& before) const {
+StrandReach Curl::reach_after(const StrandReach& before) const {
   const auto [low, high] = params_.turns.value_range();
   const float max = std::min(std::max(std::fabs(low), std::fabs(high)), 1000.0f);
-  return std::max(params_.radius.value_range().second, 0.0f) *
-         spline_gain(max / static_cast<float>(before.segments)) * 1.00001f;
-}
-
-StrandReach Curl::reach_after(const StrandReach& before) const {
-  return before.displaced(displacement_bound(before));
+  return before.displaced(std::max(params_.radius.value_range().second, 0.0f) *
+                          spline_gain(max / static_cast<float>(before.segments)) * 1.00001f);
 }
 
 }  // namespace pelage

@@ -22,10 +22,9 @@ class Curl final : public OperatorOf<CurlParams> {
   static constexpr const char* kName = "curl";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
+  OperatorTraits traits() const override { return {.name = kName}; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

@@ -92,12 +92,8 @@ void Frizz::apply(StrandBatch& batch) const {
   }
 }
 
-float Frizz::displacement_bound(const StrandReach&) const {
-  return std::max(params_.amplitude.value_range().second, 0.0f);
-}
-
 StrandReach Frizz::reach_after(const StrandReach& before) const {
-  return before.displaced(displacement_bound(before));
+  return before.displaced(std::max(params_.amplitude.value_range().second, 0.0f));
 }
 
 }  // namespace pelage

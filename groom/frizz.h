@@ -20,10 +20,9 @@ class Frizz final : public OperatorOf<FrizzParams> {
   static constexpr const char* kName = "frizz";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
+  OperatorTraits traits() const override { return {.name = kName}; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

@@ -30,7 +30,7 @@ class LeafGrowth {
  public:
   LeafGrowth(const FrozenGrowth& growth, size_t leaf)
       : growth_(growth), range_(growth.source.follicles().leaves()[leaf]) {
-    const std::optional<AttributeClass> colors = growth.stack.colors(0, growth.frozen);
+    const std::optional<AttributeClass> colors = growth.stack.traits(0, growth.frozen).colors;
     color_rows_ = !colors ? 0 : *colors == AttributeClass::kPerPoint ? SIZE_MAX : 1;
   }
 
@@ -51,7 +51,7 @@ class LeafGrowth {
   std::vector<std::byte> run(size_t from, std::span<const std::byte> layer,
                              std::vector<std::vector<std::byte>>& layers) const {
     FrozenLeafWriter writer(
-        {!growth_.source.imported && growth_.stack.has_one_width_profile(0, growth_.frozen)});
+        {!growth_.source.imported && growth_.stack.traits(0, growth_.frozen).has_one_width_profile});
     const auto batch = std::make_unique<StrandBatch>();
     size_t at = 0;
     layers.assign(growth_.frozen - std::min(growth_.frozen, from + 1), {});

@@ -18,7 +18,7 @@ Groom::~Groom() = default;
 
 const FollicleTree& Groom::follicles() const { return impl_->source.follicles(); }
 StrandRole Groom::role() const { return impl_->role; }
-bool Groom::needs_closest_point() const { return impl_->stack->needs_closest_point(); }
+bool Groom::needs_closest_point() const { return impl_->stack->traits().needs_closest_point; }
 StrandRepairs Groom::repairs() const {
   return impl_->source.imported ? impl_->source.imported->repairs() : StrandRepairs();
 }
@@ -112,7 +112,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   }
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
-  if (stack.needs_closest_point() && !impl->source.rest) {
+  if (stack.traits().needs_closest_point && !impl->source.rest) {
     throw Error(ErrorKind::kInput, "groom '" + name + "' uses push_out, but its strands follow no skin");
   }
 
@@ -134,7 +134,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
       ContentHasher().add(identity.stages()[GroomIdentity::kStrands].hash).add(params.leaf_size()).digest();
 
   const int max_points = impl->source.imported ? impl->source.imported->max_points() : params.points;
-  require_growing(job.ledger, max_points, stack.colors().has_value(), context.owner);
+  require_growing(job.ledger, max_points, stack.traits().colors.has_value(), context.owner);
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {
@@ -157,7 +157,7 @@ FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const Prepa
   options.count = params.strands.value_or(0);
   options.per_area = params.strands ? 0.0 : 1.0;
   if (params.density) options.density = params.density->with_textures(context.textures);
-  if (stack->restricts_coverage()) {
+  if (stack->traits().restricts_coverage) {
     options.coverage = [this](const V3f& at, const V3f& normal) { return stack->coverage(at, normal); };
   }
   options.seed = hash64(seed, random_use("follicles"));

@@ -15,7 +15,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   size_t end = stack.size();
-  while (end > 0 && stack.operators()[end - 1]->name() != freeze) --end;
+  while (end > 0 && stack.operators()[end - 1]->traits().name != freeze) --end;
   return end;
 }
 

@@ -68,9 +68,9 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
 }
 
 void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
-  const RestUse use = stack->rest_use(frozen_end, stack->size());
+  const RestUse use = stack->traits(frozen_end, stack->size()).rest_use;
   needs_rest_frames = !source.rest || use == RestUse::kFrames ||
-                      !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
+                      !stack->traits(frozen_end, std::max(frozen_end, stack->first_live())).attributes_only;
   if (needs_rest_frames || use == RestUse::kNone) return;
   require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
                "placing the strands of groom '" + name + "' at rest");
@@ -157,10 +157,10 @@ Strands Groom::grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept)
   const bool on_skin = g.source.rest != nullptr;
   const FollicleTree::Leaf& range = g.source.follicles().leaves()[leaf];
   PELAGE_CHECK(!on_skin || !pose.keys.empty());
-  PELAGE_CHECK(!g.stack->needs_closest_point() || pose.trees.size() == key_count(pose, on_skin));
+  PELAGE_CHECK(!g.stack->traits().needs_closest_point || pose.trees.size() == key_count(pose, on_skin));
 
   const size_t keys = key_count(pose, on_skin);
-  const std::optional<AttributeClass> colors = g.stack->colors();
+  const std::optional<AttributeClass> colors = g.stack->traits().colors;
   size_t end = range.end;
   if (kept) end = range.begin + (kept->strands.empty() ? 0 : kept->strands.back() + size_t(1));
   StrandWriter writer = kept ? StrandWriter(g.chosen(*kept, range.begin), keys, colors, on_skin)
@@ -202,7 +202,7 @@ FollicleTree::Leaf first_of(const FollicleTree::Leaf& leaf, size_t count) {
 
 StrandCounts Groom::counts(size_t leaf, size_t count) const {
   const CoatSource& source = impl_->source;
-  const std::optional<AttributeClass> colors = impl_->stack->colors();
+  const std::optional<AttributeClass> colors = impl_->stack->traits().colors;
   const FollicleTree::Leaf range = first_of(source.follicles().leaves()[leaf], count);
   StrandCounts counts;
   counts.strands = range.end - range.begin;

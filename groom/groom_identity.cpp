@@ -38,15 +38,15 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
   // `rest` is null for strands that follow no skin.
   describe(params.attach, "attach", strands);
   for (const auto& op : stack.operators()) {
-    if (!op->restricts_coverage()) continue;
+    if (!op->traits().restricts_coverage) continue;
     for (ParameterText& parameter : op->parameters()) {
-      parameter.key = std::string(op->name()) + "." + parameter.key;
+      parameter.key = std::string(op->traits().name) + "." + parameter.key;
       strands.push_back(std::move(parameter));
     }
   }
   add("strands", strands);
   add("points", {{"points", std::to_string(params.points)}});
-  for (const auto& op : stack.operators()) add(std::string(op->name()), op->parameters());
+  for (const auto& op : stack.operators()) add(std::string(op->traits().name), op->parameters());
 }
 
 void GroomIdentity::add(std::string name, const std::vector<ParameterText>& parameters) {

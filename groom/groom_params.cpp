@@ -19,8 +19,8 @@ std::optional<Problem> check_freeze(const GroomParams& params) {
                                         (names.empty() ? "; it has none" : suggest(freeze.name, names))};
   }
   const auto end = items.begin() + (names.rend() - last);
-  const auto live =
-      std::find_if(items.begin(), end, [](const auto& item) { return !item.prototype->reads_rest_only(); });
+  const auto live = std::find_if(items.begin(), end,
+                                 [](const auto& item) { return !item.prototype->traits().reads_rest_only; });
   if (live == end) return {};
   return Problem{freeze.position, quote(live->name) + " runs on posed strands and cannot be frozen" +
                                       (live + 1 == end ? "" : ", and it comes before " + quote(freeze.name))};

@@ -162,10 +162,6 @@ bool Guides::all_strands_have_guides() const {
   return low >= 1 && params_.spread && *params_.spread <= near_.radius();
 }
 
-float Guides::displacement_bound(const StrandReach& before) const {
-  return std::clamp(params_.amount.value_range().second, 0.0f, 1.0f) * (before.distance + guides_->longest());
-}
-
 StrandReach Guides::reach_after(const StrandReach& before) const {
   StrandReach after = before;
   const float longest = guides_->longest() * 1.00001f;

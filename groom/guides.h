@@ -42,12 +42,12 @@ class Guides final : public OperatorOf<GuidesParams> {
   static constexpr const char* kName = "guides";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
+  OperatorTraits traits() const override {
+    return {.name = kName, .restricts_coverage = params_.spread.has_value()};
+  }
   void prepare(const PrepareContext& context) override;
   float coverage(const V3f& rest_position, const V3f& normal) const override;
-  bool restricts_coverage() const override { return params_.spread.has_value(); }
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

@@ -78,15 +78,4 @@ StrandReach Length::reach_after(const StrandReach& before) const {
   return after;
 }
 
-float Length::displacement_bound(const StrandReach& before) const {
-  // The tip of a straight strand moves by the change of its length.
-  const float scale_low = std::max(params_.scale.value_range().first, 0.0f) * (1.0f - params_.variation);
-  if (!params_.value) {
-    const float scale_high = std::max(params_.scale.value_range().second, 0.0f);
-    return before.distance * std::max(std::fabs(scale_high - 1.0f), std::fabs(1.0f - scale_low));
-  }
-  const float shortest = std::max(params_.value->value_range().first, 0.0f) * scale_low;
-  return std::max(reach_after(before).length, before.distance - shortest);
-}
-
 }  // namespace pelage

@@ -23,10 +23,9 @@ class Length final : public OperatorOf<LengthParams> {
   static constexpr const char* kName = "length";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
+  OperatorTraits traits() const override { return {.name = kName}; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

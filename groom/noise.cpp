@@ -61,12 +61,8 @@ void Noise::apply(StrandBatch& batch) const {
   }
 }
 
-float Noise::displacement_bound(const StrandReach&) const {
-  return std::max(params_.amplitude.value_range().second, 0.0f);
-}
-
 StrandReach Noise::reach_after(const StrandReach& before) const {
-  return before.displaced(displacement_bound(before));
+  return before.displaced(std::max(params_.amplitude.value_range().second, 0.0f));
 }
 
 }  // namespace pelage

@@ -48,6 +48,33 @@ struct StrandReach {
 /// Data of the roots on the rest skin that an operator reads.
 enum class RestUse { kNone, kPositions, kFrames };
 
+/// What an operator is and what it needs, as the growth of a coat sees it. Depends on its parameters only.
+struct OperatorTraits {
+  std::string_view name = {};  ///< in the scene file: "clump"
+  /// Raised whenever apply() or prepare() gives other results than before (see groom_identity.h).
+  int version = 1;
+  /// Whether the operator uses rest state only. If so, its result is valid in every pose and may be frozen.
+  /// If not, the operator receives posed strands.
+  bool reads_rest_only = true;
+  /// Whether apply() uses the posed skin (StrandBatch::skin).
+  bool needs_closest_point = false;
+  /// Frequency of the colours that apply() writes. Empty if apply() writes no colours.
+  std::optional<AttributeClass> colors = {};
+  /// Whether apply() ignores the colours that strands had before.
+  bool replaces_colors = false;
+  /// Whether apply() gives all strands the same width profile, times one factor per strand.
+  bool has_one_width_profile = true;
+  /// Whether apply() reads and writes no other data of a batch than ids, texture coordinates, rest positions,
+  /// clump numbers, radii and colours. If so, it can run on strands whose shape is not known yet.
+  bool attributes_only = false;
+  /// The members of StrandBatch::rest that apply() reads.
+  RestUse rest_use = RestUse::kFrames;
+  /// Whether prepare() runs the operators before this one. These must then be prepared first.
+  bool runs_preceding = false;
+  /// Whether coverage() differs from 1 anywhere.
+  bool restricts_coverage = false;
+};
+
 /// Inputs of prepare(), which runs before strands are grown. Rest state only.
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
@@ -70,17 +97,9 @@ struct PrepareContext {
 class Operator {
  public:
   virtual ~Operator() = default;
-  /// Name in the scene file: "clump".
-  virtual std::string_view name() const = 0;
+  virtual OperatorTraits traits() const = 0;
   /// Name and value of every parameter that influences prepare() or apply().
   virtual std::vector<ParameterText> parameters() const = 0;
-  /// Whether the operator uses rest state only. If so, its result is valid in every pose and may be frozen.
-  /// If not, the operator receives posed strands.
-  virtual bool reads_rest_only() const { return true; }
-  /// Whether apply() uses the posed skin (StrandBatch::skin).
-  virtual bool needs_closest_point() const { return false; }
-  /// Frequency of the colours that apply() writes. Empty if apply() writes no colours.
-  virtual std::optional<AttributeClass> colors() const { return {}; }
   /// A random factor on the colour of a strand: its value for this strand, and its mean over all strands.
   struct Brightness {
     float value = 1, mean = 1;
@@ -88,30 +107,15 @@ class Operator {
   /// Returns the factor by which apply() multiplies the colour of a strand. `seed`: the seed that prepare()
   /// received.
   virtual Brightness brightness(uint64_t /*seed*/, uint64_t /*strand_id*/) const { return {}; }
-  /// Whether apply() ignores the colours that strands had before.
-  virtual bool replaces_colors() const { return false; }
-  /// Whether apply() gives all strands the same width profile, times one factor per strand.
-  virtual bool has_one_width_profile() const { return true; }
-  /// Whether apply() reads and writes no other data of a batch than ids, texture coordinates, rest positions,
-  /// clump numbers, radii and colours. If so, it can run on strands whose shape is not known yet.
-  virtual bool attributes_only() const { return false; }
-  /// The members of StrandBatch::rest that apply() reads.
-  virtual RestUse rest_use() const { return RestUse::kFrames; }
-  /// Whether prepare() runs the operators before this one. These must then be prepared first.
-  virtual bool runs_preceding() const { return false; }
   /// Reads maps and files, and gathers data about the whole coat, such as clump centres and guides. Called
   /// once. Charges memory that it keeps to the ledger. Throws Error: kInput for unusable files, kMemory
   /// before allocating memory that does not fit, kStopped when the job is stopped.
   virtual void prepare(const PrepareContext&) {}
   /// Returns the factor on the density of the groom at a point of the rest skin.
   virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
-  /// Whether coverage() differs from 1 anywhere.
-  virtual bool restricts_coverage() const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
-  /// Returns an upper bound of the distance by which apply() moves any point of a strand within the bounds
-  /// `before`. The bound is at most 1.5 times the distance that the worst strand actually moves.
-  virtual float displacement_bound(const StrandReach& before) const = 0;
-  /// Returns the bounds of strands after apply(). `before`: their bounds before it.
+  /// Returns the bounds of strands after apply(). `before`: their bounds before it. The max distance is at
+  /// most 1.5 times the distance of the point that is actually the farthest.
   virtual StrandReach reach_after(const StrandReach& before) const = 0;
 };
 

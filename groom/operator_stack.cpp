@@ -38,7 +38,7 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
   const StrandReach after = op.reach_after({});
   if (std::isfinite(after.length) && std::isfinite(after.distance) && std::isfinite(after.radius)) return;
   const std::vector<std::string> known{"random", "clump", "color"};
-  const std::string name(op.name());
+  const std::string name(op.traits().name);
   if (const std::string unknown = unknown_attribute(op, known); !unknown.empty()) {
     throw Error(ErrorKind::kInput, position,
                 "'" + name + "' reads the unknown attribute " + quote(unknown) + suggest(unknown, known));
@@ -63,19 +63,19 @@ OperatorStack::OperatorStack(const OperatorList& list) {
   std::map<std::string, uint64_t> seen;
   operators_.reserve(list.items.size());
   for (const OperatorList::Item& item : list.items) {
-    operators_.push_back(item.clone(*item.prototype));
+    traits_.push_back(operators_.emplace_back(item.clone(*item.prototype))->traits());
     places_.push_back({item.position, hash_name(item.name), seen[item.name]++, false});
   }
-  live_ = static_cast<size_t>(std::find_if(operators_.begin(), operators_.end(),
-                                           [](const auto& op) { return !op->reads_rest_only(); }) -
-                              operators_.begin());
+  const auto live = std::find_if(traits_.begin(), traits_.end(),
+                                 [](const OperatorTraits& traits) { return !traits.reads_rest_only; });
+  live_ = static_cast<size_t>(live - traits_.begin());
 }
 
 void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& context) {
   for (size_t i = begin; i < end; ++i) {
     Place& place = places_[i];
     if (place.prepared) continue;
-    if (operators_[i]->runs_preceding()) prepare(0, i, context);
+    if (traits_[i].runs_preceding) prepare(0, i, context);
     PrepareContext own = context;
     own.preceding = std::span(operators_).first(i);
     own.seed = seed_of(context.seed, i);
@@ -94,57 +94,38 @@ uint64_t OperatorStack::seed_of(uint64_t groom, size_t i) const {
 
 void OperatorStack::prepare_coverage(const PrepareContext& context) {
   for (size_t i = 0; i < size(); ++i) {
-    if (operators_[i]->restricts_coverage()) prepare(i, i + 1, context);
+    if (traits_[i].restricts_coverage) prepare(i, i + 1, context);
   }
-}
-
-bool OperatorStack::attributes_only(size_t begin, size_t end) const {
-  for (size_t i = begin; i < end; ++i) {
-    if (!operators_[i]->attributes_only()) return false;
-  }
-  return true;
 }
 
 void OperatorStack::apply(size_t begin, size_t end, StrandBatch& batch) const {
   for (size_t i = begin; i < end; ++i) operators_[i]->apply(batch);
 }
 
-bool OperatorStack::needs_closest_point() const {
-  return std::any_of(operators_.begin(), operators_.end(),
-                     [](const auto& op) { return op->needs_closest_point(); });
-}
-
-bool OperatorStack::has_one_width_profile(size_t begin, size_t end) const {
-  for (size_t i = begin; i < end; ++i) {
-    if (!operators_[i]->has_one_width_profile()) return false;
+OperatorTraits OperatorStack::traits(size_t begin, size_t end) const {
+  OperatorTraits all{.attributes_only = true, .rest_use = RestUse::kNone};
+  for (const OperatorTraits& own : std::span(traits_).subspan(begin, end - begin)) {
+    all.reads_rest_only &= own.reads_rest_only;
+    all.needs_closest_point |= own.needs_closest_point;
+    all.colors = std::max(all.colors, own.colors);
+    all.replaces_colors |= own.replaces_colors;
+    all.has_one_width_profile &= own.has_one_width_profile;
+    all.attributes_only &= own.attributes_only;
+    all.rest_use = std::max(all.rest_use, own.rest_use);
+    all.restricts_coverage |= own.restricts_coverage;
   }
-  return true;
-}
-
-RestUse OperatorStack::rest_use(size_t begin, size_t end) const {
-  RestUse max = RestUse::kNone;
-  for (size_t i = begin; i < end; ++i) max = std::max(max, operators_[i]->rest_use());
-  return max;
-}
-
-std::optional<AttributeClass> OperatorStack::colors(size_t begin, size_t end) const {
-  std::optional<AttributeClass> max;
-  for (size_t i = begin; i < end; ++i) {
-    const std::optional<AttributeClass> own = operators_[i]->colors();
-    if (own && (!max || *own > *max)) max = own;
-  }
-  return max;
+  return all;
 }
 
 Operator::Brightness OperatorStack::brightness(uint64_t seed, uint64_t strand_id) const {
   Operator::Brightness product;
   for (size_t i = size(); i-- > 0;) {
     const Operator& op = *operators_[i];
-    if (!op.colors()) continue;
+    if (!traits_[i].colors) continue;
     const Operator::Brightness own = op.brightness(seed_of(seed, i), strand_id);
     product.value *= own.value;
     product.mean *= own.mean;
-    if (op.replaces_colors()) break;
+    if (traits_[i].replaces_colors) break;
   }
   return product;
 }
@@ -158,11 +139,6 @@ float OperatorStack::coverage(const V3f& rest_position, const V3f& normal) const
   float result = 1;
   for (const auto& op : operators_) result *= op->coverage(rest_position, normal);
   return result;
-}
-
-bool OperatorStack::restricts_coverage() const {
-  return std::any_of(operators_.begin(), operators_.end(),
-                     [](const auto& op) { return op->restricts_coverage(); });
 }
 
 void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles,

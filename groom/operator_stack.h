@@ -38,18 +38,11 @@ class OperatorStack {
   void apply_frozen(StrandBatch& batch) const { apply(0, live_, batch); }
   void apply_live(StrandBatch& batch) const { apply(live_, size(), batch); }
   bool has_live() const { return live_ < operators_.size(); }
-  /// Whether attributes_only() holds for all of [begin, end).
-  bool attributes_only(size_t begin, size_t end) const;
-  /// Returns the max of rest_use() over [begin, end).
-  RestUse rest_use(size_t begin, size_t end) const;
-  bool needs_closest_point() const;
-  /// Whether has_one_width_profile() holds for all of [begin, end).
-  bool has_one_width_profile(size_t begin, size_t end) const;
-  /// Highest frequency of the colours that operators write. Empty when no operator writes colours.
-  std::optional<AttributeClass> colors() const { return colors(0, size()); }
+  /// Returns what the operators [begin, end) need and do together, as if they were one operator. The result
+  /// has no name, version or runs_preceding.
+  OperatorTraits traits(size_t begin, size_t end) const;
+  OperatorTraits traits() const { return traits(0, size()); }
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }
-  /// Returns the highest frequency of the colours that the operators [begin, end) write.
-  std::optional<AttributeClass> colors(size_t begin, size_t end) const;
   /// Returns the product of the random factors that operators apply to the colour of a strand. `seed`: the
   /// seed of the context that was passed to prepare().
   Operator::Brightness brightness(uint64_t seed, uint64_t strand_id) const;
@@ -58,7 +51,6 @@ class OperatorStack {
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
   /// Returns the product of the coverage of all operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
-  bool restricts_coverage() const;
 
  private:
   struct Place {
@@ -70,6 +62,7 @@ class OperatorStack {
   uint64_t seed_of(uint64_t groom, size_t i) const;
 
   std::vector<std::unique_ptr<Operator>> operators_;
+  std::vector<OperatorTraits> traits_;  // of each operator
   std::vector<Place> places_;
   size_t live_ = 0;  // first operator that reads live state
 };

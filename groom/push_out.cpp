@@ -210,12 +210,6 @@ void PushOut::apply(StrandBatch& batch) const {
   }
 }
 
-float PushOut::displacement_bound(const StrandReach& before) const {
-  // A strand that points straight in is laid along the skin; none leaves the ball of its length by more than
-  // the stretching.
-  return before.distance + before.length * kReach;
-}
-
 StrandReach PushOut::reach_after(const StrandReach& before) const {
   StrandReach after = before;
   after.distance = std::max(before.distance, before.length * kReach);

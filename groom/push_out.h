@@ -25,15 +25,14 @@ class PushOut final : public OperatorOf<PushOutParams> {
   static constexpr const char* kName = "push_out";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
-  bool reads_rest_only() const override { return false; }
-  RestUse rest_use() const override {
-    return params_.offset.dependence().rest ? RestUse::kPositions : RestUse::kNone;
+  OperatorTraits traits() const override {
+    return {.name = kName,
+            .reads_rest_only = false,
+            .needs_closest_point = true,
+            .rest_use = params_.offset.dependence().rest ? RestUse::kPositions : RestUse::kNone};
   }
-  bool needs_closest_point() const override { return true; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 };
 

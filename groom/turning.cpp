@@ -46,10 +46,4 @@ void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const
   }
 }
 
-float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle) {
-  const float mean = std::min(angle, std::numbers::pi_v<float>) * profile.mean(0, 1);
-  const float arc = profile.end == 0 ? before.distance : before.length;
-  return std::min(2.0f * std::sin(0.5f * mean) * arc, 2.0f * before.length);
-}
-
 }  // namespace pelage

@@ -26,10 +26,4 @@ struct TurnProfile {
 /// the rotated segments from the root on.
 void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const Rotation& rotation);
 
-/// Returns an upper bound of the distance by which any point of a strand moves when each segment is rotated
-/// by at most `angle` times the profile. A rotation by an angle a moves the end of a segment by 2 sin(a / 2)
-/// times the length of the segment. This distance is a concave function of a. By Jensen's inequality, the sum
-/// over all segments is therefore at most the value for the mean angle.
-float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle);
-
 }  // namespace pelage

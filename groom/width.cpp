@@ -35,9 +35,12 @@ const Schema<WidthParams>& WidthParams::schema() {
   return table;
 }
 
-bool Width::has_one_width_profile() const {
+OperatorTraits Width::traits() const {
   const FieldDependence root = params_.root.dependence(), tip = params_.tip.dependence();
-  return !root.surface && !root.attributes && !tip.surface && !tip.attributes;
+  return {.name = kName,
+          .has_one_width_profile = !root.surface && !root.attributes && !tip.surface && !tip.attributes,
+          .attributes_only = true,
+          .rest_use = root.rest || tip.rest ? RestUse::kPositions : RestUse::kNone};
 }
 
 void Width::prepare(const PrepareContext& context) {

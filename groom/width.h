@@ -22,16 +22,9 @@ class Width final : public OperatorOf<WidthParams> {
   static constexpr const char* kName = "width";
   using OperatorOf::OperatorOf;
 
-  std::string_view name() const override { return kName; }
-  bool attributes_only() const override { return true; }
-  RestUse rest_use() const override {
-    const bool rest = params_.root.dependence().rest || params_.tip.dependence().rest;
-    return rest ? RestUse::kPositions : RestUse::kNone;
-  }
-  bool has_one_width_profile() const override;
+  OperatorTraits traits() const override;
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
-  float displacement_bound(const StrandReach&) const override { return 0; }
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:

@@ -61,9 +61,9 @@ class Simplification {
   Simplification(const SimplificationParams& params, const LodView& view, const CoatStats& stats,
                  float budget);
 
-  /// Returns the simplification of the same coat for rays that see it from afar: `fraction` of the strands
-  /// that share() keeps, as far as no widened strand is wider than a quarter of its length. Colours keep
-  /// their contrast. `fit`: factors on gain().
+  /// Returns the simplification of the same coat for rays that see it from afar. It keeps `fraction` of the
+  /// strands that share() keeps. The fraction is raised where necessary so that no widened strand exceeds a
+  /// quarter of its length. Colours keep their contrast. `fit`: factors on gain().
   Simplification distant(float fraction, const WidthFit& fit = {}) const;
 
   const LodView& view() const { return view_; }

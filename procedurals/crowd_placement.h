@@ -33,7 +33,7 @@ struct CrowdRules {
   float heading = 0;                  ///< middle of the allowed headings, radians
   float heading_variation = 0;        ///< max deviation from `heading`, radians
   uint64_t seed = 0;
-  std::vector<PlacedFootprint> obstacles;  ///< other animals, which do not move; also kept at `spacing`
+  std::vector<PlacedFootprint> obstacles;  ///< other animals, which do not move; `spacing` holds for them too
 };
 
 /// Spreads animals evenly over an area. Then moves and rotates animals that are too close to others, until

@@ -36,7 +36,7 @@ class DeferredSkin {
   virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
   /// Hash of everything on which pieces and triangles depend, except for the view. Empty when unknown.
   virtual std::optional<ContentHash> content() const { return {}; }
-  /// Number of faces: those of triangles are smaller.
+  /// Number of faces. All indices in SkinMesh::faces are smaller.
   virtual uint32_t face_count() const = 0;
 };
 

@@ -135,7 +135,7 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  // The code that makes boxes is in this room: boxes of other builds of the program are not used.
+  // The code that makes boxes is in this module, so boxes of other builds of the program are not used.
   record.key = ContentHasher()
                    .add(program_identity())
                    .add(groom_->content_hash())

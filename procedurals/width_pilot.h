@@ -21,10 +21,10 @@ float near_distance(float share, float spacing);
 ///
 /// Pilot rays start on strands around a few roots, in directions away from the skin, and are tested against
 /// the strands around these roots at rest. Only the part from near_distance() on counts, and only rays that
-/// no strand blocks before. For each share, each ray has a smallest factor at which a kept strand blocks it;
-/// the result is the factor that is no larger than this for as many rays as all strands let pass. A ray
-/// counts as often as rays of other directions leave the coat from its origin: light matters where it is seen
-/// from outside.
+/// no strand blocks before. For each share and ray, find the smallest width factor at which a kept strand
+/// blocks it. Return the quantile that lets as many rays pass as the full coat does. Weight each ray by the
+/// fraction of directions that escape the coat from its origin, because light matters where it is seen from
+/// outside.
 ///
 /// `seen`: the coat at full detail, for the widths before the fit. `spacing`: distance between its strands.
 /// `rest`: the skin at rest; null for a groom without a skin. `priorities`: null for those of the groom. The

@@ -161,7 +161,7 @@ double tracing_s(const RenderScene& scene, const PixelBox& pixels) {
 }  // namespace
 
 int64_t FrameEstimate::peak_bytes() const {
-  const int64_t tracing = chunk_bytes + shadows.held_bytes + shadows.learning_bytes;
+  const int64_t tracing = chunk_bytes + shadows.held_bytes;
   const int64_t rendering =
       box_bytes + std::max(measuring_bytes, buffer_bytes + std::max(tracing, shadows.making_bytes));
   return std::max(preparing_bytes,

@@ -21,7 +21,7 @@ struct FrameEstimate {
   int64_t preparing_bytes = 0;  ///< largest resident set of this process until then
   int64_t film_bytes = 0;       ///< frame buffer
   int64_t buffer_bytes = 0;     ///< sample buffers and reflection cache of `gather`
-  ShadowEstimate shadows;       ///< skin balls and pilot rays
+  ShadowEstimate shadows;       ///< skin balls
   int64_t box_bytes = 0;        ///< boxes of the chunks
   int64_t measuring_bytes = 0;  ///< chunks that threads grow to measure their boxes
   int64_t chunk_bytes = 0;      ///< fur and skins in memory at once, and chunks that threads grow meanwhile

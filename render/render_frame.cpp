@@ -17,7 +17,6 @@
 #include "render/frame/sample_schedule.h"
 #include "render/gather/gather_loop.h"
 #include "render/path/path_tracer.h"
-#include "render/path/visibility_pilots.h"
 #include "render/sampling/adaptive_rule.h"
 
 namespace pelage {
@@ -80,25 +79,13 @@ TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameO
   return loop.costs();
 }
 
-/// Prepares what the scene asks for to save shadow rays. Returns false when cancelled.
-bool prepare_shadows(const RenderScene& scene, FrameGeometry& geometry, const Job& job,
-                     std::unique_ptr<const VisibilityTable>& table, PathOptions& path,
+/// Finds the balls inside skins, if the scene asks for them. Returns false when cancelled.
+bool prepare_shadows(const RenderScene& scene, FrameGeometry& geometry, const Job& job, PathOptions& path,
                      FrameStatistics& statistics) try {
-  if (const SkinBallUse use = scene.render.ball_use(scene.skins.size()); use != SkinBallUse::kOff) {
-    const Stopwatch clock;
-    SkinShadows& shadows = geometry.shadows(scene, job);
-    path.known.balls = &shadows;
-    shadows.set_shells({});
-    if (use == SkinBallUse::kFractional && scene.lights.size() > 0)
-      shadows.set_shells(VisibilityPilots(scene, geometry.accel(), path).fit_shells(job, statistics));
-    statistics.stages_s["skin balls"] += clock.seconds();
-  }
-  if (scene.render.learned_visibility != LearnedUse::kOff && scene.lights.size() > 0) {
-    const Stopwatch clock;
-    table = VisibilityPilots(scene, geometry.accel(), path).learn(job, statistics);
-    path.known.visibility = table.get();
-    statistics.stages_s["pilot rays"] += clock.seconds();
-  }
+  if (scene.render.ball_use(scene.skins.size()) == SkinBallUse::kOff) return true;
+  const Stopwatch clock;
+  path.balls = &geometry.shadows(scene, job);
+  statistics.stages_s["skin balls"] += clock.seconds();
   return true;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kStopped) throw;
@@ -150,8 +137,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
   FrameOptions used = options;
-  std::unique_ptr<const VisibilityTable> table;
-  result.partial = !geometry || !prepare_shadows(scene, *geometry, job, table, used.path, result.statistics);
+  result.partial = !geometry || !prepare_shadows(scene, *geometry, job, used.path, result.statistics);
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();

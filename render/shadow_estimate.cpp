@@ -6,18 +6,12 @@
 
 #include "base/process_usage.h"
 #include "geom/skin_balls.h"
-#include "render/path/visibility_pilots.h"
 #include "render/weighted_selection.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kSkinsWithBalls = 4;  // whose balls are found
-// Rough CPU seconds of a pilot ray, with its share of shading.
-constexpr double kPilotRay_s = 2e-6;
-// Bytes that pilots reserve, per byte that they use: most pilots end early, and a table has few cells
-// (docs/lab/FARM.md).
-constexpr int64_t kReserved = 8;
 
 /// Finds the balls of some skins, and adds what the balls of all skins need.
 void add_balls(const RenderScene& scene, const Job& job, ShadowEstimate& estimate) {
@@ -47,18 +41,6 @@ ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job) {
   ShadowEstimate estimate;
   const SkinBallUse use = scene.render.ball_use(scene.skins.size());
   if (use != SkinBallUse::kOff && !scene.skins.empty()) add_balls(scene, job, estimate);
-  if (scene.lights.size() == 0) return estimate;
-  if (use == SkinBallUse::kFractional) {
-    const PilotNeeds shells = VisibilityPilots::needs_of_shells(scene);
-    estimate.learning_bytes = shells.tracing_bytes / kReserved;
-    estimate.cpu_s += kPilotRay_s * static_cast<double>(shells.rays);
-  }
-  if (scene.render.learned_visibility != LearnedUse::kOff) {
-    const PilotNeeds table = VisibilityPilots::needs_of_table(scene);
-    estimate.learning_bytes = std::max(estimate.learning_bytes, table.tracing_bytes / kReserved);
-    estimate.held_bytes += table.held_bytes / kReserved;
-    estimate.cpu_s += kPilotRay_s * static_cast<double>(table.rays);
-  }
   return estimate;
 }
 

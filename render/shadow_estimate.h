@@ -8,17 +8,15 @@
 
 namespace pelage {
 
-/// Memory (in bytes) and CPU time (in seconds) of what a frame prepares to save shadow rays: skin balls and
-/// pilot rays.
+/// Memory (in bytes) and CPU time (in seconds) of what a frame prepares to save shadow rays: skin
+/// balls.
 struct ShadowEstimate {
   int64_t making_bytes = 0;  ///< while balls are made, before the first ray
-  int64_t learning_bytes =
-      0;  ///< while pilots are traced, in addition to the balls and the chunks that rays reach
-  int64_t held_bytes = 0;  ///< until the end of the frame: balls, and the table of pilots
+  int64_t held_bytes = 0;    ///< until the end of the frame
   double cpu_s = 0;
 };
 
-/// Makes the balls of a few skins, and computes the others from their sizes. Traces no pilot.
+/// Makes the balls of a few skins, and computes the others from their sizes.
 ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job);
 
 }  // namespace pelage

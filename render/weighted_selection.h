@@ -16,10 +16,10 @@ struct SelectedItem {
   double scale = 0;
 };
 
-/// Selects items at `count` even steps of the summed weight, so an item is selected about as often as in
-/// proportion to its weight. Nothing is random. The sum of quantity * scale over the selected items estimates
-/// the sum of the quantity over all items [HansenHurwitz43]; it is exact if the quantity is proportional to
-/// the weight. With at most `count` items, selects each of them once.
+/// Selects items at `count` even steps of the summed weight, so the number of times that an item is selected
+/// is about proportional to its weight. Nothing is random. The sum of quantity * scale over the selected
+/// items estimates the sum of the quantity over all items [HansenHurwitz43]; it is exact if the quantity is
+/// proportional to the weight. With at most `count` items, selects each of them once.
 std::vector<SelectedItem> select_by_weight(std::span<const double> weights, size_t count);
 
 }  // namespace pelage

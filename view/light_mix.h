@@ -17,8 +17,8 @@ struct LightMix {
   Rgb tint{1};
 };
 
-/// Returns the values that make these changes: `intensity` takes the stops and `radiance` the tint. Where
-/// `intensity` has keyframes, `radiance` takes both. Throws Error (kArguments) with the nearest name for a
+/// Returns the values that make these changes: the stops change `intensity`, the tint changes `radiance`. If
+/// `intensity` has keyframes, both change `radiance`. Throws Error (kArguments) with the nearest name for a
 /// light that the scene does not have.
 std::vector<ValueEdit> light_edits(const SceneDescription& scene, const std::vector<LightMix>& mixes);
 

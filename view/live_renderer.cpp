@@ -103,7 +103,8 @@ void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {
     const std::lock_guard lock(mutex_);
     next_ = std::move(edit);
     waiting_ = true;
-    // Before the thread takes the edit, and after waiting_: the render that ends now must not report rest.
+    // Clear the state after setting `waiting_`, so that the render that is ending does not report completion,
+    // and before the thread takes the edit.
     desk_.update([](ViewStatus& status) {
       status.at_rest = false;
       status.render_error.clear();
@@ -170,7 +171,7 @@ void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
     try {
       load(*edit, redo, job);
     } catch (const Error& error) {
-      // Memory that is kept may be missing elsewhere.
+      // Chunks kept from the last frame may occupy the memory that this frame needs.
       if (error.kind() != ErrorKind::kMemory) throw;
       desk_.discard_frame();
       forget();
@@ -221,7 +222,6 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     params.integrator = Integrator::kPath;
     params.samples = 1;
     params.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
-    params.learned_visibility = LearnedUse::kOff;
     image.filter_samples = FilterSamples::kDrawn;
     is_preview_ = true;
     try {

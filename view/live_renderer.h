@@ -39,7 +39,7 @@ class LiveRenderer {
 
   void run();
   void render(const std::shared_ptr<const SceneEdit>& edit);
-  /// Makes the assets and the world of an edit, as far as `redo` needs it.
+  /// Makes those assets and parts of the world of an edit that `redo` requires.
   void load(const SceneEdit& edit, Redo redo, const Job& job);
   /// Frees everything that is kept between edits.
   void forget();

@@ -155,8 +155,7 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   header.frames_per_second = scene.units.fps;
   header.meters_per_unit = scene.units.meters_per_unit;
   header.seed = scene.render.seed;
-  if (scene.render.adaptive)
-    header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
+  if (scene.render.adaptive) header.adaptive = "two-stage";
   header.program_version = version();
   header.instruction_set = instruction_set();
   header.scene_hash = scene.hash;

@@ -86,7 +86,7 @@ Value RibMaterials::material(const RibMaterial& material, std::vector<Problem>& 
   }
   if (shader && unknown_.insert(shader->name).second)
     warnings.push_back(
-        {position, "shader " + quote(shader->name) + " is not known; it is drawn as " +
+        {position, "shader " + quote(shader->name) + " is not known; it is rendered as " +
                        (material.fibre ? "cone-shell" : "lambert") +
                        " with the colour of the file (--materials maps shaders to materials)"});
   return block;

@@ -191,7 +191,7 @@ camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0]
     s.key("crowds", &SceneDescription::crowds,
           {.help = "Groups of many animals made from a few characters, by name"});
     s.key("archives", &SceneDescription::archives,
-          {.help = "RIB files that are drawn with the scene, by name"});
+          {.help = "RIB files that are rendered with the scene, by name"});
     s.key("lights", &SceneDescription::lights,
           {.help = "Lights, by name; each adds its own layers to the picture"});
     s.key("render", &SceneDescription::render,

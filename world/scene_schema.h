@@ -90,7 +90,7 @@ struct CharacterParams {
   static const Schema<CharacterParams>& schema();
 };
 
-/// A RIB file, whose coats and skins are drawn as they are.
+/// A RIB file, whose coats and skins are rendered as they are.
 struct ArchiveParams {
   AssetPath rib;
   TransformParams transform;

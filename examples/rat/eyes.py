@@ -5,7 +5,7 @@ from mesh import Mesh
 
 CENTRE = (1.40, 5.36, 6.88)
 RADIUS = 0.47
-CAGE_GAIN = 1.10     # Catmull-Clark draws a ball of this cage in by about this much
+CAGE_GAIN = 1.10     # Catmull-Clark shrinks a ball of this cage by about this much
 
 
 def ball(mesh, centre, radius, group):

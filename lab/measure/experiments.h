@@ -43,7 +43,8 @@ struct ShadingPlan {
 };
 
 /// Compares variants of the integrators `path` and `gather`. Reports the error as a function of CPU time, the
-/// bias, and the numbers of rays and knots (points on surfaces whose light `gather` shares among samples).
+/// bias, and the numbers of rays and gather points (points on surfaces whose light `gather` shares among
+/// samples).
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 

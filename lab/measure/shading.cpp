@@ -81,9 +81,6 @@ void add_work(Columns& columns) {
     return drawn > 0 ? run.outcome.number("shadow_candidates_proved") / drawn : NAN;
   });
   columns.add_number("rays_proved", "rays proved", "rays_skipped_skin");
-  columns.add_number("rays_learned", "rays ended by learning", "rays_skipped_learned");
-  columns.add_number("rays_modelled", "rays modelled", "rays_modelled");
-  columns.add_number("rays_pilot", "pilot rays", "pilot_rays");
   columns.add_number("rays_near", "near rays", "rays_near");
   columns.add_number("rays_far", "far rays", "rays_far");
   columns.add_number("knots", "knots", "knots");

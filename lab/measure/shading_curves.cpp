@@ -28,31 +28,10 @@ ShadingCurve gather_with(const char* key, const std::string& value, const char* 
   return curve;
 }
 
-/// A curve with both kinds of known occlusion switched on or off. `ball`: render.skin_ball; `learned`:
-/// render.learned_visibility.
-ShadingCurve with_known(ShadingCurve curve, const char* ball, const char* learned) {
-  curve.settings.insert(curve.settings.begin(),
-                        {{"render.skin_ball", ball}, {"render.learned_visibility", learned}});
+/// A curve with a value of render.skin_ball.
+ShadingCurve with_balls(ShadingCurve curve, const char* use) {
+  curve.settings.insert(curve.settings.begin(), {"render.skin_ball", use});
   return curve;
-}
-
-/// `path` and `gather` with what may save shadow rays: each idea alone, and both together.
-std::vector<ShadingCurve> occlusion_curves() {
-  const auto by_path = [](const char* id, const char* title, const char* ball, const char* learned) {
-    return with_known(path(id, title, "drawn"), ball, learned);
-  };
-  const auto by_gather = [](const char* id, const char* title, const char* ball, const char* learned) {
-    return with_known(gather(id, title), ball, learned);
-  };
-  return {by_path("skin_ball", "path, skin_ball: exact", "exact", "false"),
-          by_path("learned", "path, learned_visibility: true", "off", "true"),
-          by_path("skin_ball_learned", "path, skin_ball: exact, learned_visibility: true", "exact", "true"),
-          by_path("fractional", "path, skin_ball: fractional", "fractional", "false"),
-          by_path("reject", "path, learned_visibility: reject", "off", "reject"),
-          by_gather("gather_skin_ball", "gather, skin_ball: exact", "exact", "false"),
-          by_gather("gather_skin_ball_learned", "gather, skin_ball: exact, learned_visibility: true", "exact",
-                    "true"),
-          by_gather("gather_fractional", "gather, skin_ball: fractional", "fractional", "false")};
 }
 
 /// `path` or `gather` with the opposite of one switch of the scene.
@@ -66,10 +45,8 @@ ShadingCurve switched(ShadingCurve curve, const char* key, bool scene_value) {
 
 /// Everything that may save shadow rays or make them cheaper, switched on together; and all but one of it.
 std::vector<ShadingCurve> together_curves() {
-  const std::pair<const char*, const char*> settings[] = {{"skin_ball", "exact"},
-                                                          {"learned_visibility", "true"},
-                                                          {"screen_door", "true"},
-                                                          {"occlusion_detail", "true"}};
+  const std::pair<const char*, const char*> settings[] = {
+      {"skin_ball", "exact"}, {"screen_door", "true"}, {"occlusion_detail", "true"}};
   const auto all_but = [&](ShadingCurve curve, const std::string& missing) {
     for (const auto& [key, value] : settings) {
       const char* off = std::string(key) == "skin_ball" ? "off" : "false";
@@ -79,9 +56,8 @@ std::vector<ShadingCurve> together_curves() {
   };
   std::vector<ShadingCurve> curves{all_but(path("together", "path, together", "drawn"), "")};
   for (const auto& [key, value] : settings) {
-    const std::string name = std::string(key) == "learned_visibility" ? "learned" : key;
     ShadingCurve curve = all_but(path("", "path, together without ", "drawn"), key);
-    curve.id = "together_" + name;
+    curve.id = fmt::format("together_{}", key);
     curve.title += key;
     curves.push_back(std::move(curve));
   }
@@ -130,8 +106,9 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
     curves.push_back(switched(curve, "occlusion_detail", scene.render.occlusion_detail));
   }
-  for (ShadingCurve& curve : curves) curve = with_known(std::move(curve), "off", "false");
-  for (ShadingCurve& curve : occlusion_curves()) curves.push_back(std::move(curve));
+  for (ShadingCurve& curve : curves) curve = with_balls(std::move(curve), "off");
+  curves.push_back(with_balls(path("skin_ball", "path, skin_ball: exact", "drawn"), "exact"));
+  curves.push_back(with_balls(gather("gather_skin_ball", "gather, skin_ball: exact"), "exact"));
   for (ShadingCurve& curve : together_curves()) curves.push_back(std::move(curve));
   const std::string same = same_as_gather(scene);
   std::erase_if(curves, [&](const ShadingCurve& curve) { return curve.id == same; });

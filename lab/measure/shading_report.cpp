@@ -107,8 +107,7 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
   for (const ShadingRun& run : all.runs) {
     if (!run.last || !run.outcome.succeeded()) continue;
     const ShadingCurve& curve = all.curves[*run.curve];
-    const bool approximates = curve.id == "fractional" || curve.id == "reject";
-    if (!curve.gather && curve.id != "path" && !approximates) continue;
+    if (!curve.gather && curve.id != "path") continue;
     if (curve.id == "gather") add(screen_picture_of(run.picture, kMaxWidth, run.outcome.variant.title + "."));
     std::vector<std::filesystem::path> pictures{run.picture};
     if (run.reuse) pictures.push_back(run.other);
@@ -155,9 +154,9 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
                                     {"variant", "samples", "cpu_s", "cpu_least_s", "cpu_most_s", "rel_mse",
                                      "rel_mse_deviation", "block_rel_mse", "bias"},
                                     "Error of each picture.")}});
-  std::vector<std::string> work{
-      "variant",     "cpu_s",        "rays_camera",   "rays_shadow", "rays_indirect", "candidates_proved",
-      "rays_proved", "rays_learned", "rays_modelled", "rays_pilot",  "rays_near",     "rays_far"};
+  std::vector<std::string> work{"variant",     "cpu_s",         "rays_camera",
+                                "rays_shadow", "rays_indirect", "candidates_proved",
+                                "rays_proved", "rays_near",     "rays_far"};
   for (const std::string& key : keys_with(report.data, "cpu_")) {
     if (key.ends_with("_s") && key != "cpu_s" && key != "cpu_least_s" && key != "cpu_most_s")
       work.push_back(key);
@@ -165,7 +164,8 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
   work.insert(work.end(),
               {"knots", "samples_per_knot", "reflection_cells", "reflection_paths", "reflection_lookups",
                "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
-  report.sections.push_back({"Rays, knots and memory", {table(is_measured, work, "Work of each run.")}});
+  report.sections.push_back(
+      {"Rays, gather points and memory", {table(is_measured, work, "Work of each run.")}});
   report.sections.push_back(pictures_of(all, folder));
 }
 

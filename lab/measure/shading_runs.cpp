@@ -63,7 +63,6 @@ class Sweep {
             {{"render.integrator", "path"},
              {"image.filter_samples", "splatted"},
              {"render.skin_ball", "off"},
-             {"render.learned_visibility", "false"},
              {"render.screen_door", "false"},
              {"render.occlusion_detail", "false"}}};
   }

@@ -24,8 +24,8 @@ struct RibParameter {
 /// explicitly, 2 P[0] - P[1] and 2 P[n-1] - P[n-2], and has n + 2 vertices. Its widths are "varying": one per
 /// joint of segments, which are as many as the points. Renderers interpolate varying widths linearly. The
 /// value at a joint is the width of the point that belongs to it. Pelage's spline of widths differs from this
-/// by at most a sixth of the second difference of the widths. A reader that finds exact phantom points gets
-/// back the strand, bit for bit.
+/// by at most a sixth of the second difference of the widths. A reader that finds exact phantom points can
+/// restore the strand, bit for bit.
 ///
 /// Parameters: "P"; "width"; "uniform integer id", the lower 32 bits of the ids, as signed numbers; "uniform
 /// integer id_high", the upper 32 bits, only if any is not 0; "uniform float[2] st", texture coordinates of

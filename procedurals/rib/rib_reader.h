@@ -52,8 +52,8 @@ struct RibStatement {
 /// Reads a RIB file request by request. Does not know what requests mean. Throws Error (kInput).
 class RibReader {
  public:
-  /// `check`: called before the arguments of one request take more than 1 MiB, and again before they take
-  /// twice as much as it was called with. May throw. A short compressed file may have huge arguments.
+  /// `check`: called before the arguments of one request take more than 1 MiB, and again each time before
+  /// their size doubles. May throw. A short compressed file may have huge arguments.
   RibReader(const std::filesystem::path& path, std::function<void(size_t bytes)> check)
       : lexer_(path, [this](size_t bytes) { charge(bytes); }), check_(std::move(check)) {}
   explicit RibReader(const std::filesystem::path& path) : RibReader(path, {}) {}

@@ -77,7 +77,7 @@ struct RibCoat {
 };
 
 /// A request Procedural that asks for the plugin libpelage_ri.so or the program `pelage procedural`. Pelage
-/// does not run them. The room world/ knows what the arguments mean, and grows the coats itself.
+/// does not run them. The module world/ interprets the arguments and grows the coats itself.
 struct RibOwnProcedural {
   std::string arguments;
   SourcePosition position;

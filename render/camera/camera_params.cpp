@@ -53,7 +53,7 @@ const Schema<CameraParams>& CameraParams::schema() {
           {.help = "Number of poses over the shutter interval; motion is linear between them",
            .min = 2,
            .max = 64});
-    s.key("lens", &CameraParams::lens, {.help = "Depth of field; a pinhole without it"});
+    s.key("lens", &CameraParams::lens, {.help = "Depth of field. Without a lens, the camera is a pinhole"});
     return s;
   }();
   return table;

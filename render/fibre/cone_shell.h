@@ -58,12 +58,12 @@ class ConeShell {
     return scale_ * std::max(0.0f, weight);
   }
 
-  /// Returns z, drawn with the density 2 pi density(z) with respect to z.
+  /// Returns z, sampled with the density 2 pi density(z) with respect to z.
   float sample(float xi) const {
     if (variant_ == ShellVariant::kLiteral) return sample_literal(xi);
     return std::clamp(center_ + half_range_ * WignerTable::instance().sample(xi), -1.0f, 1.0f);
   }
-  /// Draws z with the given sampler. Returns z and the density with which this sampler draws it.
+  /// Samples z with the given sampler. Returns z and its density under this sampler.
   ShellPoint sample(ShellSampler sampler, float xi) const;
 
   /// Range of z: cosines of the outer and the inner cone.

@@ -35,7 +35,7 @@ class FibreBsdf {
   FibreValue eval(const V3f& wi) const {
     return std::visit([&](const auto& model) { return model.eval(wi); }, model_);
   }
-  /// Draws wi from the mixture of lobes; `u`: three random numbers in [0, 1). Empty when the drawn direction
+  /// Samples wi from the mixture of lobes; `u`: three random numbers in [0, 1). Empty when the direction
   /// has no density, for example because the fibre absorbs everything.
   std::optional<FibreSample> sample(const V3f& u) const {
     return std::visit([&](const auto& model) { return model.sample(u); }, model_);

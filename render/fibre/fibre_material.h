@@ -46,7 +46,7 @@ class FibreMaterial {
   /// The cone-shell model, whose lobes use tangents from shifted positions on the strand; null for all other
   /// models.
   const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
-  /// Whether FibrePoint::h should be drawn uniformly for each point instead of taken from the hit.
+  /// Whether FibrePoint::h should be sampled uniformly for each point instead of taken from the hit.
   bool far_field() const { return far_field_; }
   /// Converts colour to absorption. Null for models that have a formula for this, and for materials that do
   /// not use the colour.

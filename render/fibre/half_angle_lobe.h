@@ -53,7 +53,7 @@ class HalfAngleLobe {
     const float at = energy_[k] + t * (energy_[k + 1] - energy_[k]);
     return std::exp(-0.5f * x * x) / (std::sqrt(2 * kPi) * width_ * within_) * at / mean_;
   }
-  /// Draws theta_h. Requires energy() > 0.
+  /// Samples theta_h. Requires energy() > 0.
   float sample(float xi) const {
     float rest = xi * mean_;
     int k = 0;

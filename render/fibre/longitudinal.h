@@ -60,7 +60,7 @@ class LongitudinalLobe {
     return scale_ * bessel_i0_exp(x, below_peak - x);
   }
 
-  /// Returns sin theta_i, drawn with the density M with respect to sin theta_i [dEon13]. `u`: two random
+  /// Returns sin theta_i, sampled with the density M with respect to sin theta_i [dEon13]. `u`: two random
   /// numbers in [0, 1). u.y may be less well stratified than u.x.
   float sample(const V2f& u, float sin_o, float cos_o) const {
     const float below_one = std::min(2.0f, -variance_ * std::log(u.x + (1 - u.x) * tail_));

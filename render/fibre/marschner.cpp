@@ -10,7 +10,7 @@ namespace {
 
 /// Where both directions are along the fibre, 1 / cos^2(theta_d) is unbounded.
 constexpr float kMinCosine = 1e-2f;
-/// Fraction of all samples drawn uniformly: far from all peaks the lobes are inaccurate.
+/// Fraction of all samples that are uniform: far from all peaks the lobes are inaccurate.
 constexpr float kEverywhere = 0.01f;
 
 }  // namespace

@@ -45,7 +45,7 @@ class MarschnerBsdf {
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
 
   FibreValue eval(const V3f& wi) const;
-  /// Draws theta_h from the lobes, then the azimuth about the exit azimuth at the resulting theta_d.
+  /// Samples theta_h from the lobes, then the azimuth about the exit azimuth at the resulting theta_d.
   /// Attenuations, exit azimuths and the measure depend on theta_d. If lobes were evaluated at theta_o
   /// instead, sampling would miss the brightest light of slanted fibres.
   std::optional<FibreSample> sample(const V3f& u) const;
@@ -62,7 +62,7 @@ class MarschnerBsdf {
   };
   Crossing crossing(float theta_d) const;
   float energy(int lobe, float theta_h) const;
-  /// Fraction of samples drawn uniformly over the sphere: 1 % normally, 1 when every lobe is black.
+  /// Fraction of samples that are uniform over the sphere: 1 % normally, 1 when every lobe is black.
   float uniform_share() const;
 
   const MarschnerMaterial* material_;

@@ -76,7 +76,7 @@ class SeparableBsdf {
     return value;
   }
 
-  /// Draws a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
+  /// Samples a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
   /// peak. u.z selects the lobe; rescaled to [0, 1) within its lobe, it also selects the angle about the
   /// peak.
   V3f draw(const V3f& u) const {

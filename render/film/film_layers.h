@@ -16,7 +16,7 @@ namespace pelage {
 
 /// How the pixel filter is applied to the samples of a picture (image.filter_samples).
 enum class FilterSamples {
-  kDrawn,    ///< sample positions are drawn from the pixel's filter; each sample counts for that pixel alone
+  kDrawn,    ///< sample positions come from the pixel's filter; each sample counts for that pixel alone
   kSplatted  ///< samples are spread evenly; each counts for all pixels around it, weighted by their filters
 };
 template <>

@@ -15,7 +15,7 @@ namespace pelage {
 
 /// Weighted sums of the channels of a picture, per pixel.
 ///
-/// Without a splat filter, sample positions were drawn from the pixel filter. A sample then counts for its
+/// Without a splat filter, sample positions come from the pixel filter. A sample then counts for its
 /// own pixel alone, with weight 1. With a splat filter, a sample lies anywhere in its pixel. It counts for
 /// every pixel whose filter covers it, weighted by the value of that filter. With the Blackman-Harris filter,
 /// this halves the variance for the same number of samples, but the noise of neighbouring pixels is

@@ -8,7 +8,7 @@
 
 namespace pelage {
 
-/// Draws the position of a camera ray in or around a pixel, with a density proportional to the pixel filter
+/// Samples the position of a camera ray in or around a pixel, with a density proportional to the pixel filter
 /// [Ernst06]. All samples of a pixel then have the same weight, and each sample counts for one pixel only.
 class FilterSampler {
  public:

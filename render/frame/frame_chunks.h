@@ -64,7 +64,7 @@ class FrameChunks final : public ChunkGrower {
   /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
   /// Empty when unknown.
   std::optional<ContentHash> content(uint32_t leaf) const;
-  /// Makes the first growth of a leaf count as growing its strands again. Call before that growth.
+  /// Counts the next growth of this leaf as a regrowth. Call before its first growth.
   void mark_grown(uint32_t leaf) { was_grown_[leaf].store(true, std::memory_order_relaxed); }
   bool was_grown(uint32_t leaf) const { return was_grown_[leaf].load(std::memory_order_relaxed); }
   /// Returns how often grow() has grown a leaf.
@@ -78,7 +78,7 @@ class FrameChunks final : public ChunkGrower {
   bool opaque() const;
   /// Returns the count of strands that grow() has made so far. A strand that is grown again counts again.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
-  /// Returns the count of those that had been grown before.
+  /// Returns how many strands of strands_grown() had been grown before.
   int64_t strands_regrown() const { return strands_regrown_.load(std::memory_order_relaxed); }
 
  private:

@@ -22,9 +22,9 @@ class FrameGeometry {
   /// counts and times of these steps.
   ///
   /// `kept`, if not null: chunks of an earlier frame. Those with the same contents are used instead of
-  /// growing them again, and the others are freed. When cancelled, `kept` is unchanged. The first picture is
-  /// then more urgent than the last: FrameChunks::bound_quickly(). Call tighten() when many chunks have
-  /// grown.
+  /// growing them again, and the others are freed. When cancelled, `kept` is unchanged. With `kept`, the time
+  /// to the first picture matters most, so boxes come from FrameChunks::bound_quickly(). Call tighten() when
+  /// many chunks have grown.
   static std::unique_ptr<FrameGeometry> make(const RenderScene& scene, const Job& job,
                                              FrameStatistics& statistics, KeptFur* kept = nullptr);
   /// Uses the measured boxes of chunks that have grown, so that later rays are faster. Affects no hit. No ray
@@ -41,7 +41,7 @@ class FrameGeometry {
   const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Returns the balls inside the skins of the scene. Computes them at the first call; not thread-safe.
   /// Throws the errors of SkinShadows.
-  SkinShadows& shadows(const RenderScene& scene, const Job& job) {
+  const SkinShadows& shadows(const RenderScene& scene, const Job& job) {
     if (!shadows_) shadows_ = std::make_unique<SkinShadows>(scene, job);
     return *shadows_;
   }

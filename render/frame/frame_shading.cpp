@@ -15,7 +15,6 @@
 #include "render/frame/skin_point.h"
 #include "render/frame/skin_shadows.h"
 #include "render/frame/strand_fields.h"
-#include "render/frame/visibility_table.h"
 
 namespace pelage {
 namespace {
@@ -105,8 +104,8 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const KnownOcclusion& known)
-    : scene_(scene), known_(known), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+FrameShading::FrameShading(const RenderScene& scene, const SkinShadows* balls)
+    : scene_(scene), balls_(balls), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -223,9 +222,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
   ScatterPoint point =
       hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand) : skin_point(ray, hit, met.triangle);
-  if (known_.balls) point.set_shadow(known_.balls->below(hit, met, ray.time));
-  if (known_.visibility)
-    point.set_learned(known_.visibility->find(point.position(), hit.kind == HitKind::kStrand));
+  if (balls_) point.set_shadow(balls_->below(hit, met, ray.time));
   return point;
 }
 

@@ -8,19 +8,20 @@
 #include "render/accel/accel.h"
 #include "render/fibre/fibre_material.h"
 #include "render/film/film.h"
-#include "render/frame/known_occlusion.h"
 #include "render/light/scatter_point.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
+
+class SkinShadows;
 
 /// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members, `met` is
 /// the geometry of the hit, which the accelerator has copied. Thread safety: const members may be called from
 /// any thread.
 class FrameShading {
  public:
-  /// `known`: stored in the points of scatter_point(). Must outlive this object.
-  explicit FrameShading(const RenderScene& scene, const KnownOcclusion& known = {});
+  /// `balls`: inside the skins, for the points of scatter_point(); null: none. Must outlive this object.
+  explicit FrameShading(const RenderScene& scene, const SkinShadows* balls = nullptr);
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
@@ -59,7 +60,7 @@ class FrameShading {
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
   const RenderScene& scene_;
-  const KnownOcclusion known_;
+  const SkinShadows* const balls_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material
 };

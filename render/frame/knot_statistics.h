@@ -5,10 +5,9 @@
 
 namespace pelage {
 
-/// Counts of `integrator: gather`, for one thread, one frame or several frames. A knot is a position on a
-/// strand or skin near which camera samples share light. It counts once per tile that sees it, and once per
-/// pass over that tile. In a long frame, the first pass has one
-/// sample per pixel.
+/// Counts of `integrator: gather`, for one thread, one frame or several frames. A gather point is a position
+/// on a strand or skin near which camera samples share light. It counts once per tile that sees it, and once
+/// per pass over that tile. In a long frame, the first pass has one sample per pixel.
 struct KnotStatistics {
   /// `samples`: camera samples that hit a strand or skin.
   int64_t knots = 0, samples = 0;

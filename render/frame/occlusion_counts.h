@@ -8,12 +8,9 @@ namespace pelage {
 /// Counts of shadow rays by how their outcome became known, for one thread, one frame or several frames.
 /// Traced rays are in RayStatistics.
 struct OcclusionCounts {
-  int64_t candidates = 0;         ///< points on lights that were drawn as targets of shadow rays
+  int64_t candidates = 0;         ///< points on lights that were sampled as targets of shadow rays
   int64_t candidates_proved = 0;  ///< of these, left out because the skin blocks them for certain
   int64_t rays_proved = 0;        ///< rays that were not traced because the skin blocks them for certain
-  int64_t rays_ended = 0;         ///< rays that were not traced because of learned visibility
-  int64_t rays_modelled = 0;      ///< rays that were not traced because shells of coats replace them
-  int64_t pilot_rays = 0;         ///< traced rays from which visibility was learned, of all kinds
 
   /// Counts the candidates of one shading. Its shadow ray counts as proved if all candidates are.
   void add_candidates(int64_t drawn, int64_t proved) {
@@ -25,9 +22,6 @@ struct OcclusionCounts {
     candidates += other.candidates;
     candidates_proved += other.candidates_proved;
     rays_proved += other.rays_proved;
-    rays_ended += other.rays_ended;
-    rays_modelled += other.rays_modelled;
-    pilot_rays += other.pilot_rays;
     return *this;
   }
 };

@@ -23,8 +23,8 @@ struct ThreadClocks {
 };
 
 /// Counts the rays of one thread by kind and estimates their CPU time by kind: measures one ray in kStride
-/// and multiplies the mean. Random numbers do not influence which rays are measured, and measuring changes no
-/// result.
+/// and multiplies the mean time by the count of rays. Random numbers do not influence which rays are
+/// measured, and measuring changes no result.
 ///
 /// Some rays do not enter the mean:
 /// - A ray that may have grown a chunk, because growth is reported separately. The next ray replaces it.

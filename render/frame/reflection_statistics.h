@@ -14,7 +14,7 @@ struct ReflectionStatistics {
   int64_t slices = 0;
   int64_t bytes = 0;    ///< of the cells while the picture is rendered, in the frame with most
   int64_t lookups = 0;  ///< paths that asked for the light of their second surface
-  int64_t found = 0;    ///< lookups that were answered; the other paths went on
+  int64_t found = 0;    ///< lookups that were answered; the other paths continued
 
   ReflectionStatistics& operator+=(const ReflectionStatistics& other) {
     cells += other.cells;

@@ -16,10 +16,11 @@ struct RestPlace {
   float scale = 1;  ///< size in world space / size at rest
 };
 
-/// Returns where a strand grows at rest. A strand without a skin has its attribute kRestPositions or else the
-/// position of its root, and its first direction.
+/// Returns where a strand grows at rest. For a strand without a skin, the position is its attribute
+/// kRestPositions or else its root, and the normal is its first direction.
 RestPlace rest_place(const FurPart& part, const Strands& strand);
-/// Returns the rest place of a hit on a skin. A skin without a rest pose is taken as it is hit.
+/// Returns the rest place of a hit on a skin. For a skin without a rest pose, this is the place of the hit
+/// itself.
 RestPlace rest_place(const SkinPart& part, const Ray& ray, const Hit& hit, const SkinMesh& triangle);
 
 /// Returns the largest component of a vector, and the sign of this component, as a number below 6.

@@ -2,7 +2,6 @@
 #include "render/frame/sample_schedule.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/parallel.h"
@@ -124,11 +123,8 @@ ScheduleEnd SampleSchedule::run() {
     job_.progress.begin("render", pixels * max_samples());
     job_.progress.advance(pixels * loop_.mean_samples());  // of a frame that was restored
     end = uniform(max_samples());
-  } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
-    end = two_stage();
   } else {
-    job_.progress.begin("render", static_cast<double>(loop_.traced_count()) * max_samples());
-    end = seed();
+    end = two_stage();
   }
   job_.progress.end();
   return {end == End::kCancelled, cut_ || end == End::kOutOfTime};
@@ -221,38 +217,6 @@ std::vector<uint32_t> SampleSchedule::second_stage_counts() {
   std::vector<uint32_t> counts(wanted.size());
   for (size_t i = 0; i < counts.size(); ++i) counts[i] = count(i, factor);
   return counts;
-}
-
-SampleSchedule::End SampleSchedule::seed() {
-  const auto batch = static_cast<uint32_t>(params_.adaptive->batch);
-  const double noise = params_.adaptive->noise;
-  const std::vector<PixelMoments>& moments = loop_.film().moments();
-  End end = End::kDone;
-  for (uint32_t cap = in_passes_ ? std::min(batch, max_samples()) : max_samples(); end == End::kDone;) {
-    const auto goal = [&](size_t pixel, uint32_t given) {
-      if (given > 0 && looks_converged(moments[pixel], noise)) return given;
-      return std::min(cap, given + batch);
-    };
-    end = pass(goal, loop_.sample_count(0) == 0 && in_passes_, deadline());
-    // Samples that the remaining pixels will need if their variance stays the same.
-    double expected = 0;
-    bool done = true;
-    for (size_t i = 0; i < loop_.pixel_count(); ++i) {
-      const uint32_t given = loop_.sample_count(i);
-      const PixelMoments& m = moments[i];
-      if (given >= max_samples() || (given > 0 && looks_converged(m, noise))) {
-        expected += given;
-        continue;
-      }
-      done = false;
-      const double needed = m.variance() * std::pow(kConfidence / (noise * m.mean), 2);
-      expected += limited(needed, given, max_samples());
-    }
-    job_.progress.expect(expected);
-    if (done) break;
-    cap = cap > max_samples() / 2 ? max_samples() : 2 * cap;
-  }
-  return end;
 }
 
 }  // namespace pelage

@@ -19,12 +19,10 @@ struct ScheduleEnd {
 /// Passes:
 /// - Without adaptive sampling, each pass takes as many samples of every pixel as all passes before it
 ///   together: 1, 1, 2, 4, 8 ...
-/// - With the rule `two-stage`, such passes first take a quarter of the pilot. One pass takes the rest of the
+/// - With adaptive sampling, such passes first take a quarter of the pilot. One pass takes the rest of the
 ///   pilot in those pixels that need it (needs_full_pilot()). Then two_stage_counts() determines how
 ///   many samples each pixel needs. Four passes take the missing samples: up to an eighth, a quarter, a half,
 ///   and all of them.
-/// - With the rule `seed`, the passes take up to one, two, four ... batches per pixel in total. A pixel that
-///   has converged gets no more samples.
 ///
 /// Several passes give an early preview of the whole picture. But when `stays` is false and there is no time
 /// limit, each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
@@ -32,8 +30,8 @@ struct ScheduleEnd {
 ///
 /// Unless the time limit reduces the counts, every count depends only on the samples of the frame, not on
 /// threads or the clock. The time limit starts with `clock`. Every pixel gets at least one sample, even if
-/// that takes longer. The rule `two-stage` estimates the time per sample from the pilot, and scales its
-/// counts down to fit the limit.
+/// that takes longer. Adaptive sampling estimates the time per sample from the pilot, and scales its counts
+/// down to fit the limit.
 class SampleSchedule {
  public:
   /// `stays`: whether all chunks together fit `render.memory`, so that none is evicted. `watch`: may be null.
@@ -58,7 +56,6 @@ class SampleSchedule {
   /// Takes a quarter of the pilot in every pixel, and the rest of the pilot where needs_full_pilot() says so.
   End pilot();
   End two_stage();
-  End seed();
   /// Returns the counts of two_stage_counts(), rounded and scaled down to fit the time limit.
   std::vector<uint32_t> second_stage_counts();
   uint32_t max_samples() const { return static_cast<uint32_t>(params_.samples); }

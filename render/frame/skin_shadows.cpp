@@ -67,7 +67,7 @@ SkinShadow SkinShadows::below(const Hit& hit, const HitGeometry& met, float time
   if (!balls) return {};
   const auto found = balls->find(on_strand ? met.strand.point(0) : position_at_open(hit, met.triangle));
   if (!found) return {};
-  return {balls->ball(*found, time), &balls->bounds(), shells_.empty() ? CoatShell() : shells_[skin], skin};
+  return {balls->ball(*found, time), &balls->bounds()};
 }
 
 }  // namespace pelage

@@ -20,8 +20,6 @@ class SkinShadows {
   /// triangles of a skin do not fit `render.memory`, and Error (kStopped) when the job is stopped.
   SkinShadows(const RenderScene& scene, const Job& job);
 
-  /// Sets the shells of the coats, by skin, that below() returns. Empty: none.
-  void set_shells(std::vector<CoatShell> shells) { shells_ = std::move(shells); }
   /// Returns the ball below the root of a strand, or below a hit on a skin, at the time of the ray. Proves
   /// nothing if there is no ball. `met`: the geometry of the hit.
   SkinShadow below(const Hit& hit, const HitGeometry& met, float time) const;
@@ -31,7 +29,6 @@ class SkinShadows {
 
   const RenderScene& scene_;
   std::vector<std::unique_ptr<const SkinBalls>> balls_;  // by skin
-  std::vector<CoatShell> shells_;                        // by skin
   std::vector<MemoryCharge> charges_;                    // by skin: its balls
 };
 

@@ -52,13 +52,16 @@ ArrivalGuess::Known ArrivalGuess::known(float fraction) {
   return {fraction, std::sqrt(std::max(kLeastVariance, fraction * (1 - fraction)))};
 }
 
-void ArrivalGuess::learn() {
+void ArrivalGuess::learn(bool rejects) {
   known_.resize(zones_.size() * kRanges);
   std::vector<Sums> all(lights_);
   for (size_t i = 0; i < zones_.size(); ++i) {
     const Zone& zone = zones_[i];
-    for (size_t range = 0; range < kRanges; ++range)
-      known_[i * kRanges + range] = known(guess(zone.by_range[range], zone.all));
+    for (size_t range = 0; range < kRanges; ++range) {
+      const Sums& of_range = zone.by_range[range];
+      const bool rejected = rejects && of_range.rays > 0 && !(of_range.arrived > 0);
+      known_[i * kRanges + range] = rejected ? Known{0, 0} : known(guess(of_range, zone.all));
+    }
     all[i % lights_] += zone.all;
   }
   for (size_t light = 0; light < lights_; ++light) {

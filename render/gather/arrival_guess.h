@@ -15,7 +15,7 @@ class ArrivalGuess {
  public:
   /// Count of ranges of directions: the quarters of the faces of a cube.
   static constexpr uint32_t kRanges = 24;
-  /// Of the zones of a tile, those with the same index modulo kZones share what is learned.
+  /// Zones of a tile whose indices are equal modulo kZones share what is learned.
   static constexpr uint32_t kZones = 128;
   /// Returns the range that contains a direction.
   static uint32_t range_of(const V3f& direction);
@@ -44,17 +44,19 @@ class ArrivalGuess {
 
   /// Forgets all rays.
   void begin(size_t lights);
-  /// Adds a ray. `luminance`: that arrives along it if nothing blocks it.
+  /// Adds a ray. `luminance`: what arrives along the ray if nothing blocks it.
   void add(uint32_t zone, size_t light, uint32_t range, double luminance, float through);
-  /// Makes the rays so far known to fraction() and deviation().
-  void learn();
+  /// Updates fraction() and deviation() with the rays added so far. `rejects`: from now on, fraction and
+  /// deviation are 0 where all rays of a zone, light and range were blocked. Then no further ray is chosen
+  /// there, which loses light ["Rendering Fur in Life of Pi", adaptive importance sampling; Neulander11].
+  void learn(bool rejects = false);
 
   /// Returns the guess of the fraction that arrives, in [0, 1]. 0 before learn().
   float fraction(uint32_t zone, size_t light, uint32_t range) const {
     return at(zone, light, range).fraction;
   }
   /// Returns a guess of the standard deviation of the fraction that one ray transmits; 1 before learn().
-  /// Never 0, so that every ray has a chance.
+  /// Never 0, so that every ray has a chance, unless learn() rejects.
   float deviation(uint32_t zone, size_t light, uint32_t range) const {
     return at(zone, light, range).deviation;
   }
@@ -86,7 +88,7 @@ class ArrivalGuess {
   size_t lights_ = 0;
   std::vector<Zone> zones_;   // by zone and light
   std::vector<Known> known_;  // by zone, light and range
-  std::vector<Known> other_;  // by light: in zones that no ray has met
+  std::vector<Known> other_;  // by light: for zones without a ray
 };
 
 }  // namespace pelage

@@ -10,7 +10,7 @@
 
 namespace pelage {
 
-/// Assigns hits on thin strands to cells, in which neighbouring strands share light.
+/// Assigns hits on thin strands to cells of the coat. Neighbouring strands in the same cell share light.
 ///
 /// A cell belongs to one coat. It is a cube of a grid over the skin at rest, which contains the roots of the
 /// strands, for one of six directions of the skin's normal, and a part of the length of these strands. In the
@@ -18,8 +18,8 @@ namespace pelage {
 /// normals. So cells do not join strands that are close in space but not on the skin.
 ///
 /// The side of a cube is a power of two, and so is the number of parts of a strand. Cubes and parts are at
-/// most kPixels pixels long in the picture. Like knots, cells overlap by half: a hit is assigned at random to
-/// one of the cells around it, so that on average, light is interpolated linearly.
+/// most kPixels pixels long in the picture. Like gather points, cells overlap by half: a hit is assigned at
+/// random to one of the cells around it, so that on average, light is interpolated linearly.
 ///
 /// A key depends only on the camera, the hit and the random number. Thread safety: const members may be
 /// called from any thread.
@@ -37,9 +37,9 @@ class CoatCells {
   /// Returns the key of a cell. `length`: of the strand in the picture, in pixels. `place`: of the hit on the
   /// strand, in [0, 1].
   uint64_t key(const Hit& hit, const Strands& strand, float length, float place, uint64_t random) const;
-  /// Returns the key of the patch of a strand. Patches are cubes of the skin at rest, as those of cells, but
-  /// up to kPatchPixels large. They overlap by half: a random number of the strand chooses one of those
-  /// around its root.
+  /// Returns the key of the patch of a strand. Patches are cubes of the skin at rest, like the cubes of
+  /// cells, but up to kPatchPixels large. They overlap by half: a random number of the strand chooses one of
+  /// the cubes around its root.
   uint64_t patch(const Hit& hit, const Strands& strand) const;
 
  private:

@@ -23,7 +23,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      shading_(scene, options.known),
+      shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
@@ -45,7 +45,7 @@ uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
 size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   const size_t rays = lights * TileSamples::targets(lights);
   const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
-  // At worst, each sample has a knot of its own.
+  // At worst, each sample has a gather point of its own.
   const size_t knot = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
                       PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;

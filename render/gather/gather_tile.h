@@ -18,8 +18,8 @@
 namespace pelage {
 
 /// Renders a tile. Finds the points that its camera samples see, and traces some of the rays that leave these
-/// points. The light that these rays find is shared among all points of the same knot (a position on a strand
-/// or skin, see KnotKey). The result depends only on the scene, the tile and the indices of its samples.
+/// points. All visible points that are assigned to the same gather point (see KnotKey) share the light that
+/// these rays find. The result depends only on the scene, the tile and the indices of its samples.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 class GatherTile {

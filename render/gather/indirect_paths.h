@@ -31,7 +31,7 @@ class IndirectPaths {
 
   struct Scratch {
     DirectLightScratch direct;
-    KnotOrder order;  // visible points, sorted by knot
+    KnotOrder order;  // visible points, sorted by gather point
     ReflectionStatistics reflections;
     std::vector<Rgb> arriving;  // radiance that arrives at the visible point along a path, by light
   };

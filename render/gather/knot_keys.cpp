@@ -14,7 +14,7 @@ namespace pelage {
 namespace {
 
 constexpr uint32_t kZones = 8;
-/// A strand whose knots are seen by fewer samples uses the cells of its coat.
+/// A strand whose gather points are seen by fewer samples uses the cells of its coat.
 constexpr float kFewest = 4;
 
 float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
@@ -53,7 +53,7 @@ KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, const StrandK
   const uint32_t knot = knot_near(place, level, random.x);
   const uint32_t zone = std::min(kZones * knot >> level, kZones - 1);
   const uint64_t zone_key = hash64(random_use("zone of a coat"), hit.part, zone);
-  // Pairs of knots where these are shorter than a zone.
+  // Pairs of gather points where these are shorter than a zone.
   const uint32_t part = (1u << level) > 2 * kZones ? kZones + knot / 2 : zone;
   const uint64_t patch = hash64(knots.patch, part);
   if (knots.in_cells) {

@@ -13,31 +13,32 @@
 
 namespace pelage {
 
-/// Identifies a knot, its patch and its zone. A knot is a position on a strand or skin, or a cell of a coat
-/// (see CoatCells). Samples that see the surroundings of the same knot share light. A patch is a part of a
-/// coat, a few pixels long and wide, or a single knot of a skin; about the same indirect light arrives at its
-/// knots. A zone is one of eight depth ranges of a coat, or a whole skin.
+/// Identifies a gather point, its patch and its zone. A gather point is a position on a strand or skin, or a
+/// cell of a coat (see CoatCells). Visible points near the same gather point share light. A patch is a part
+/// of a coat, a few pixels long and wide, or a single gather point of a skin. About the same indirect light
+/// arrives at all gather points of a patch. A zone is one of eight depth ranges of a coat, or a whole skin.
 struct KnotKey {
   uint64_t knot = 0;
   uint64_t patch = 0;
   uint64_t zone = 0;
 };
 
-/// Assigns the hits of a frame to knots.
+/// Assigns the hits of a frame to gather points.
 ///
-/// A strand has 2^level + 1 knots, at equal distances of its parameter. The level follows from the length of
-/// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots; the levels
-/// along its two parameters follow from the size of the face in the picture. A hit between knots is assigned
-/// at random to one of the knots around it. The probability of a knot is its linear interpolation weight. On
-/// average, light is therefore interpolated linearly between knots. Strands so thin that fewer
-/// than four samples would see a knot are assigned to the cells of their coat instead.
+/// A strand has 2^level + 1 gather points, at equal distances of its parameter. The level follows from the
+/// length of the strand in the picture when the shutter opens. Each face of a skin has a grid of gather
+/// points; the levels along its two parameters follow from the size of the face in the picture. A hit is
+/// assigned at random to one of the gather points around it, with its weight in linear interpolation as
+/// probability. On average, light is therefore interpolated linearly between gather points. If a strand is so
+/// thin that fewer than four samples would see one of its gather points, its hits are assigned to the cells
+/// of its coat instead.
 ///
-/// The knots of a coat whose strands grow in the same cube of the skin (CoatCells::patch()) are in one patch
-/// if they are at the same eighth of a strand or, on strands with more than 17 knots, at the
-/// same pair of knots.
+/// Gather points on strands that grow in the same cube of the skin (CoatCells::patch()) are in one patch if
+/// they lie in the same eighth of their strands. On strands with more than 17 gather points, each pair of
+/// neighbouring gather points takes the place of an eighth.
 ///
-/// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone
-/// within the same tile of the picture, about the same fraction of a light arrives.
+/// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the gather points of one
+/// zone within the same tile of the picture, about the same fraction of a light arrives.
 ///
 /// A key depends only on the camera, the hit and the random numbers. Thread safety: const members may be
 /// called from any thread.
@@ -46,8 +47,8 @@ class KnotKeys {
   /// Keeps a reference to `scene`. `samples`: max samples per pixel that are rendered at once.
   KnotKeys(const RenderScene& scene, uint32_t samples);
 
-  /// Returns the knot that a hit is assigned to. `random`: two random numbers in [0, 1), which select one of
-  /// the knots around the hit.
+  /// Returns the gather point that a hit is assigned to. `random`: two random numbers in [0, 1), which select
+  /// one of the gather points around the hit.
   /// `recent`: of the calling thread.
   KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random, RecentStrandKnots& recent) const;
 

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Sorts items (rays or visible points of a tile) by the group that they belong to: a knot, or a knot and a
-/// light. Items of the same group keep their order. Takes time proportional to the count of items and groups
+/// Sorts items (rays or visible points of a tile) by group: by gather point, or by gather point and light.
+/// Items of the same group keep their order. Takes time proportional to the count of items and groups
 /// (counting sort). Reuses its memory.
 class KnotOrder {
  public:

@@ -10,14 +10,15 @@
 
 namespace pelage {
 
-/// For each knot and each light, estimates the fraction of the light that reaches the points of the knot. A
-/// knot is a position on a strand or skin near which visible points share light, see knot_keys.h.
+/// For each gather point (see knot_keys.h) and each light, estimates the fraction of the light that reaches
+/// the visible points assigned to the gather point.
 ///
-/// The estimate uses shadow rays from some of the points. Each ray has a weight: the unoccluded light that
-/// the ray represents, including the light of points without a ray. On average, the sum of the weights equals
-/// the whole unoccluded light, because SystematicChoice chooses the rays. Weights have a number for each lobe
-/// group and colour, and so have fractions. For one knot, light, lobe group and colour, let
-///   U  be the exact unoccluded light: the sum over all candidates for the targets of rays of all points,
+/// The estimate uses shadow rays from some of these visible points. Each ray has a weight: the unoccluded
+/// light that the ray represents, including the light of points without a ray. On average, the sum of the
+/// weights equals the whole unoccluded light, because SystematicChoice chooses the rays. Weights and
+/// fractions have a number for each lobe group and colour. For one gather point, light, lobe group and
+/// colour, let
+///   U  be the exact unoccluded light: the sum over all candidates of all points (possible targets of rays),
 ///   p  be a guess of the fraction that arrives from a candidate (ArrivalGuess).
 /// Then the estimated fraction is
 ///   (sum over candidates of (light * p) + sum over rays of (weight * (fraction that the ray transmits - p)))
@@ -31,18 +32,18 @@ class LightSharing {
   /// Starts a tile.
   void begin(size_t lights);
 
-  // Knots have the indices 0, 1, 2 ... They may be added in any order.
-  /// Adds unoccluded light of one point, by lobe group, to U of its knot.
+  // Gather points have the indices 0, 1, 2 ... They may be added in any order.
+  /// Adds unoccluded light of one visible point, by lobe group, to U of its gather point.
   void add_unoccluded(uint32_t knot, size_t light, const Rgb* lobes);
   /// Adds light, by lobe group, times `factor` to the numerator of the fraction.
   void add_arriving(uint32_t knot, size_t light, const Rgb* lobes, float factor);
-  /// Computes the fraction of each knot and light. Call after all light was added.
+  /// Computes the fraction of each gather point and light. Call after all light was added.
   void finish(size_t knots);
-  /// What rays have found so far in this tile.
+  /// Returns what rays have found so far in this tile.
   ArrivalGuess& guess() { return guess_; }
-  /// Returns the max memory per knot, in bytes. The factor 2 is for vectors that double their size.
+  /// Returns the max memory per gather point, in bytes. The factor 2 is for vectors that double their size.
   static size_t bytes_per_knot(size_t lights) { return 2 * lights * sizeof(Knot); }
-  /// Returns the result of finish() for a knot and a light.
+  /// Returns the result of finish() for a gather point and a light.
   const Rgb& fraction(uint32_t knot, size_t light, int group) const {
     return knots_[knot * lights_ + light].arriving[group];
   }
@@ -56,7 +57,7 @@ class LightSharing {
 
   size_t lights_ = 0;
   ArrivalGuess guess_;
-  std::vector<Knot> knots_;  // by knot and light
+  std::vector<Knot> knots_;  // by gather point and light
 };
 
 }  // namespace pelage

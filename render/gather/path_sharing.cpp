@@ -4,7 +4,7 @@
 namespace pelage {
 namespace {
 
-/// The mean of a patch counts as much as this number of a knot's own paths. See docs/lab/GATHER.md.
+/// The mean of a patch weighs as much as this number of a gather point's own paths. See docs/lab/GATHER.md.
 constexpr float kPatchPaths = 32;
 
 Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
@@ -70,7 +70,7 @@ void PathSharing::blend(const std::vector<uint32_t>& patch_of_knot, uint32_t pat
   const auto part = [&](size_t knot) {
     return kPatchPaths / (kPatchPaths + static_cast<float>(weights_[knot].paths));
   };
-  const size_t values = lights_ * kLobeGroups;  // of a knot
+  const size_t values = lights_ * kLobeGroups;  // of a gather point
   patch_weights_.assign(size_t{patches} * kLobeGroups, Rgb(0));
   patch_scattered_.assign(patches * values, Rgb(0));
   for (size_t knot = 0; knot < patch_of_knot.size(); ++knot) {

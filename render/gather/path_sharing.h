@@ -10,36 +10,37 @@
 
 namespace pelage {
 
-/// For each knot, light and lobe group, estimates the mean radiance of the indirect light that arrives at the
-/// points of the knot. (A knot is a position on a strand or skin near which visible points share light, see
-/// knot_keys.h.) The indirect light that a point scatters to the camera is this radiance times the weight of
-/// the point, rho / pdf.
+/// For each gather point (see knot_keys.h), light and lobe group, estimates the mean radiance of the indirect
+/// light that arrives at the visible points assigned to the gather point. The indirect light that a visible
+/// point scatters to the camera is this radiance times the weight of the point, rho / pdf.
 ///
-/// The estimate uses paths from some of the points. For one knot, light, lobe group and colour, let
+/// The estimate uses paths from some of these points. For one gather point, light, lobe group and colour, let
 ///   W        be the sum of the weights of all points,
 ///   seen     be the sum of (weight * count of points that the path represents) over the paths,
 ///   arrived  be the same sum, each term times the radiance of the path,
 ///   p        be a guess of the radiance.
 /// Then the estimated radiance is p + (arrived - p * seen) / W. It is unbiased for every p that does not
-/// depend on the paths of this knot. For p, the class uses arrived / seen of all other knots of the same zone
-/// (one of eight depth ranges of a coat, or a whole skin).
+/// depend on the paths of this gather point. For p, the class uses arrived / seen of all other gather points
+/// of the same zone (one of eight depth ranges of a coat, or a whole skin).
 class PathSharing {
  public:
-  /// Starts a tile. `guess`: whether p is the mean over the other knots of the zone; otherwise, p = 0.
+  /// Starts a tile. `guess`: whether p is the mean over the other gather points of the zone; otherwise, p =
+  /// 0.
   void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
 
-  /// Adds the weights of a point, by lobe group, to its knot. Call for every point, with or without a path.
+  /// Adds the weights of a visible point, by lobe group, to its gather point. Call for every visible point,
+  /// with or without a path.
   void add_weights(uint32_t knot, const Rgb* weights);
   /// Adds a path of a point with these weights. The path brings the light weights[g] * radiance[light] to the
   /// camera, by lobe group g and light. `factor`: the count of points that the path represents.
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
   /// Computes the radiances. Call after all paths were added.
   void finish(const std::vector<uint32_t>& zone_of_knot);
-  /// Blends the radiances of each patch (see KnotKey), after finish(). The fewer paths a knot has, the closer
-  /// its radiance comes to the mean of its patch. The light that all knots of the patch scatter does not
-  /// change.
+  /// Blends the radiances of each patch (see KnotKey), after finish(). The fewer paths a gather point has,
+  /// the closer its radiance comes to the mean of its patch. The sum of the light that the gather points of a
+  /// patch scatter does not change.
   void blend(const std::vector<uint32_t>& patch_of_knot, uint32_t patches);
-  /// Returns the max memory per knot, in bytes. At worst, each knot has a patch of its own.
+  /// Returns the max memory per gather point, in bytes. At worst, each gather point has a patch of its own.
   static size_t bytes_per_knot(size_t lights) {
     return sizeof(Weights) + kLobeGroups * sizeof(Rgb) + 2 * lights * kLobeGroups * sizeof(Rgb);
   }
@@ -50,7 +51,7 @@ class PathSharing {
 
  private:
   struct Weights {
-    // Sums over all points of the knot, and over its paths times their factors.
+    // Sums over all visible points of the gather point, and over its paths times their factors.
     Rgb all[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
     Rgb traced[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
     uint32_t paths = 0;
@@ -58,11 +59,11 @@ class PathSharing {
 
   size_t lights_ = 0;
   bool guess_ = true;
-  std::vector<Weights> weights_;   // by knot
-  std::vector<Rgb> arrived_;       // by knot, light and lobe group; finish() replaces sums by radiances
+  std::vector<Weights> weights_;  // by gather point
+  std::vector<Rgb> arrived_;  // by gather point, light and lobe group; finish() replaces sums by radiances
   std::vector<Rgb> zone_traced_;   // by zone
   std::vector<Rgb> zone_arrived_;  // by zone and light
-  // Sums over the knots of a patch, each times the part of its radiance that blend() replaces:
+  // Sums over the gather points of a patch, each times the part of its radiance that blend() replaces:
   std::vector<Rgb> patch_weights_;    // by patch and lobe group
   std::vector<Rgb> patch_scattered_;  // by patch, light and lobe group
 };

@@ -97,7 +97,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   for (uint32_t knot = 0; knot < knots; ++knot) {
     const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
     if (items.empty()) continue;
-    // Knots choose independently: which rays one knot traces says nothing about the choice of another.
+    // Gather points choose independently: the rays of one say nothing about the rays of another.
     const uint64_t random = hash64(random_use("shadow rays"), samples.random_key, first > 0 ? 1 : 0, knot);
     SystematicChoice choice(mass / rays, unit_float(random));
     for (const uint32_t index : items) {
@@ -106,7 +106,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       if (times == 0) continue;
       if (++traced % kRaysPerCheck == 0 && job.progress.cancelled()) return false;
       const LightRay& ray = samples.light_rays[index];
-      const float through = trace_ray(samples, ray, thread);
+      const float through = thread.light_through(accel_, samples.points[ray.point].ray(ray.ray));
       const auto factor = static_cast<float>(times * choice.step() / of_ray);
       if (first == 0) {
         scratch.pilots.push_back({index, factor, through});
@@ -122,14 +122,8 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   return true;
 }
 
-/// Returns the fraction of light that a ray transmits.
-float ShadowRays::trace_ray(const TileSamples& samples, const LightRay& ray, SampleScratch& thread) const {
-  const bool is_modelled = ray.modelled >= 0;
-  thread.costs.occlusion.rays_modelled += is_modelled ? 1 : 0;
-  return is_modelled ? ray.modelled : thread.light_through(accel_, samples.points[ray.point].ray(ray.ray));
-}
-
-/// Learns from the pilot's rays, and adds their light. A knot's guess must not depend on the knot's own rays.
+/// Learns from the pilot's rays, and adds their light. The guess for a gather point must not depend on its
+/// own rays.
 void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const {
   ArrivalGuess& guess = light.guess();
   const size_t lights = scene_.lights.size();
@@ -175,7 +169,7 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
       light.add_arriving(knot, ray.light, ray.lobes, pilots[i].factor * (pilots[i].through - expected(ray)));
     }
   }
-  guess.learn();
+  guess.learn(scene_.render.gather.reject);
 }
 
 }  // namespace pelage

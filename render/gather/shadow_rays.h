@@ -17,7 +17,8 @@ namespace pelage {
 /// Chooses and traces shadow rays from the visible points of a tile: on average, about `gather.light_rays`
 /// per point. A point gets more rays if its unoccluded direct light is bright compared to the light of its
 /// pixel, and the visibility of this direct light is uncertain. Without reuse, each point gets
-/// `render.light_samples` + 1 rays, as with `path`: these rays and the one that is drawn from the lobes.
+/// `render.light_samples` + 1 rays, as with `path`: these rays, and one whose direction is sampled from the
+/// lobes.
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 class ShadowRays {
  public:
@@ -32,19 +33,19 @@ class ShadowRays {
     float through = 0;  ///< fraction that the ray transmits
   };
   struct Scratch {
-    KnotOrder order;                      // candidate rays, sorted by knot and light
+    KnotOrder order;                      // candidate rays, sorted by gather point and light
     std::vector<float> masses;            // masses for SystematicChoice of the rays in `order`
     std::vector<double> pixel_light;      // direct luminance that is expected to reach the camera, by pixel
     std::vector<Pilot> pilots;            // rays of the first call that were traced
-    std::vector<ArrivalGuess::Sums> own;  // of the rays of one knot, by light and range of directions
+    std::vector<ArrivalGuess::Sums> own;  // of the rays of one gather point, by light and range of directions
   };
 
   /// Chooses some of the rays of `samples.light_rays` from index `first` on. Traces the chosen rays and adds
   /// the results to `light`. Returns false when `job` was cancelled.
   ///
-  /// The first call of a tile, with `first` = 0, is the pilot. It makes what its rays find known to
-  /// LightSharing::guess(), and adds the expected light of its points to `light`. Before the other calls, the
-  /// caller has added the expected light of all candidates of their points (see LightSharing).
+  /// The first call of a tile, with `first` = 0, is the pilot. LightSharing::guess() learns from its rays,
+  /// and the call adds the expected light of its points to `light`. Before each later call, the caller adds
+  /// the expected light of all candidates of the points of that call (see LightSharing).
   bool trace(const TileSamples& samples, size_t first, const Job& job, Scratch& scratch,
              SampleScratch& thread, LightSharing& light) const;
 
@@ -52,7 +53,6 @@ class ShadowRays {
   double add_unoccluded(const TileSamples& samples, size_t first, Scratch& scratch,
                         LightSharing& light) const;
   double weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess, Scratch& scratch) const;
-  float trace_ray(const TileSamples& samples, const LightRay& ray, SampleScratch& thread) const;
   void finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const;
 
   const RenderScene& scene_;

@@ -9,19 +9,19 @@
 
 namespace pelage {
 
-/// What the knots of a strand depend on. The same for all hits on the strand.
+/// What the gather points of a strand depend on. The same for all hits on the strand.
 struct StrandKnots {
   float length = 0;       ///< of the control polygon in the picture when the shutter opens, in pixels
-  int level = 0;          ///< the strand has 2^level + 1 knots
+  int level = 0;          ///< the strand has 2^level + 1 gather points
   bool in_cells = false;  ///< whether its hits are assigned to the cells of the coat instead
   uint64_t patch = 0;     ///< CoatCells::patch()
 };
 
-/// Keeps the StrandKnots of the strands that a thread met last: samples of neighbouring pixels often see the
-/// same strands. Belongs to one frame.
+/// Keeps the StrandKnots of the strands that a thread looked up last, because samples of neighbouring pixels
+/// often see the same strands. Belongs to one frame.
 class RecentStrandKnots {
  public:
-  /// Returns the knots of a strand. Calls make() if they are not kept.
+  /// Returns the gather points of a strand. Calls make() if they are not kept.
   template <class Make>
   const StrandKnots& of(const StrandKey& strand, const Make& make) {
     Kept& kept = kept_[hash64(strand.part, strand.id) % kCount];

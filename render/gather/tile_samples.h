@@ -20,7 +20,7 @@ struct LeavingRay {
   float far = 0;  ///< length
 };
 
-/// A point of a strand or skin that a camera sample sees, with one ray in a direction drawn from its lobes.
+/// A point of a strand or skin that a camera sample sees, with one ray in a direction sampled from its lobes.
 struct VisiblePoint {
   uint32_t pixel = 0;      ///< index of the pixel in the tile
   uint32_t sample = 0;     ///< index of the sample in its pixel
@@ -29,8 +29,8 @@ struct VisiblePoint {
   uint32_t random = 0;     ///< PathState::random at this point
   StrandStart start = {};  ///< Hit::start; empty if a ray may hit the strand that it leaves
 
-  LeavingRay scattered;  ///< the ray drawn from the lobes
-  /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was drawn
+  LeavingRay scattered;  ///< the ray sampled from the lobes
+  /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was sampled
   Rgb weights[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
 
   /// Returns `leaving` as a ray that the accelerator can trace.
@@ -60,7 +60,6 @@ struct LightRay {
   /// candidate only.
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
-  float modelled = -1;  ///< ScatterPoint::modelled_light(); negative: the ray must be traced
 };
 
 /// The camera samples of a tile, with the points and lights that they see. Used by one thread at a time.
@@ -92,8 +91,8 @@ struct TileSamples {
   std::vector<LightRay> light_rays;  ///< by point, then by light; at most targets() of each
   /// Direct light that the points scatter to the camera if nothing blocks it, by point, light and lobe group.
   std::vector<Rgb> unoccluded;
-  std::vector<uint32_t> zone_of_knot;   ///< index of the zone (see KnotKey) of each knot
-  std::vector<uint32_t> patch_of_knot;  ///< index of the patch of each knot
+  std::vector<uint32_t> zone_of_knot;   ///< index of the zone (see KnotKey) of each gather point
+  std::vector<uint32_t> patch_of_knot;  ///< index of the patch of each gather point
   uint32_t zones = 0, patches = 0;      ///< count of each
 
   /// Clears everything and reserves the memory of the samples.
@@ -103,7 +102,7 @@ struct TileSamples {
   // Position of a pixel in the picture.
   int x(uint32_t pixel) const { return tile.x0 + static_cast<int>(pixel) % columns(); }
   int y(uint32_t pixel) const { return tile.y0 + static_cast<int>(pixel) / columns(); }
-  /// Returns the zone of the point's knot.
+  /// Returns the zone of the gather point that the visible point is assigned to.
   uint32_t zone(const VisiblePoint& point) const { return zone_of_knot[point.knot]; }
 
   /// Returns the max count of shadow rays from a point to each light of a scene with so many lights. A single

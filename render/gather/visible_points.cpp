@@ -36,7 +36,7 @@ VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shadi
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &drawn_) {}
 
 uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
-  // Without reuse, each point has a knot of its own.
+  // Without reuse, each point has a gather point of its own.
   const auto count = static_cast<uint32_t>(tile.zone_of_knot.size());
   const uint32_t knot = scene_.render.gather.reuse ? scratch.knots.index(key.knot) : count;
   if (knot < count) return knot;
@@ -90,7 +90,8 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   tile.points.push_back(visible);
 }
 
-/// Evaluates the light at a visible point as if nothing blocked it, and draws the rays that leave the point.
+/// Evaluates the light at a visible point as if nothing blocked it, and samples the rays that leave the
+/// point.
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
                                SampleScratch& thread, VisiblePoint& visible, TileSamples& tile) const {
   const size_t lights = scene_.lights.size();
@@ -172,7 +173,6 @@ void VisiblePoints::choose_targets(const ScatterPoint& point, float u, Scratch& 
       for (int g = 0; g < kLobeGroups; ++g)
         ray.lobes[g] = candidate.lobes[g] * (ray.unoccluded / candidate.mass);
       ray.ray = {point.start(candidate.direction), candidate.direction, candidate.far};
-      ray.modelled = point.modelled_light(candidate.direction, candidate.far).value_or(-1.0f);
     }
   }
 }

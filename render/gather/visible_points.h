@@ -17,9 +17,9 @@
 
 namespace pelage {
 
-/// Finds the points and lights that the camera samples of a tile see. Assigns each point to a knot, and
-/// computes the direct light that the point would scatter to the camera if nothing blocked the lights. Thread
-/// safety: const members may be called from any thread, each with its own scratch.
+/// Finds the points and lights that the camera samples of a tile see. Assigns each point to a gather point,
+/// and computes the direct light that the point would scatter to the camera if nothing blocked the lights.
+/// Thread safety: const members may be called from any thread, each with its own scratch.
 class VisiblePoints {
  public:
   /// Keeps references to its arguments. `samples`: max samples per pixel that share light.
@@ -37,7 +37,7 @@ class VisiblePoints {
     Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};  ///< this light, by lobe group
     V3f direction{0};
     float far = 0;        ///< length of the shadow ray
-    float deviation = 1;  ///< guess of that of the fraction that arrives
+    float deviation = 1;  ///< guess of the standard deviation of the fraction that arrives
   };
 
   struct Scratch {
@@ -47,7 +47,7 @@ class VisiblePoints {
     std::vector<Candidate> candidates;  // of the current point
     std::vector<float> masses;          // sum of mass * deviation over the candidates, by light
 
-    /// Forgets the knots, patches and zones of the last tile.
+    /// Forgets the gather points, patches and zones of the last tile.
     void clear() {
       knots.clear();
       patches.clear();

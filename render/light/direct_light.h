@@ -24,13 +24,11 @@ enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
-  uint32_t stratum = 0;  ///< of LearnedVisibility
-  float factor = 1;      ///< LearnedVisibility::factor() of the light and stratum
-  V3f direction{0};      ///< unit, from the scatter point
-  float distance = 0;    ///< from the scatter point
-  FibreValue value;      ///< scattering of light from this direction
-  Rgb arriving{0};       ///< radiance * weight of the technique / density of one point
-  float luminance = 0;   ///< of the light that is scattered to the viewer: value.total() * arriving
+  V3f direction{0};     ///< unit, from the scatter point
+  float distance = 0;   ///< from the scatter point
+  FibreValue value;     ///< scattering of light from this direction
+  Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
+  float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
 };
 
 /// Memory of one thread, reused for each scatter point.
@@ -43,10 +41,10 @@ struct DirectLightScratch {
 /// Estimates direct light at a scatter point with two techniques, weighted by the power heuristic [Veach97,
 /// section 9.2].
 ///
-/// Light sampling selects lights by importance, and draws several candidate points on them. The targets of
+/// Light sampling selects lights by importance, and samples several candidate points on them. The targets of
 /// shadow rays are resampled from the candidates, in proportion to the light that each candidate would
 /// contribute if nothing blocked it. This pays because evaluating a fibre costs much less than tracing a ray
-/// [Talbot05]. Lobe sampling draws a direction from the lobes, and finds the lights that a ray in this
+/// [Talbot05]. Lobe sampling samples a direction from the lobes, and finds the lights that a ray in this
 /// direction hits. Lights do not block rays or each other.
 ///
 /// At each point, call begin() first, then propose() and choose() for shadow rays, and find_lights() for a
@@ -65,7 +63,7 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Returns the count of candidates that propose() draws.
+  /// Returns the count of candidates that propose() samples.
   uint32_t candidates() const { return rays_ * kCandidates; }
   /// Returns the weight of one candidate: 1 / count of candidates, because direct light is their mean.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
@@ -77,9 +75,9 @@ class DirectLight {
         point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
-  /// Draws the candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
+  /// Samples candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
   /// would contribute nothing, so leaving them out changes no expected value. `u`: two random numbers in [0,
-  /// 1). `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose
+  /// 1). `lobe_pdf(value)` must return the density with which lobe sampling finds a direction whose
   /// scattering is `value`.
   template <class LobePdf>
   void propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
@@ -156,8 +154,6 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
   }
   LightPoint result;
   result.light = choice.light;
-  result.stratum = LearnedVisibility::stratum(place);
-  result.factor = point.learned().factor(choice.light, result.stratum);
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
@@ -173,17 +169,15 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 
 template <class Shadow>
 void DirectLight::choose(float rays, float u, const DirectLightScratch& scratch, const Shadow& shadow) const {
-  // Points are drawn in proportion to the unoccluded light that they contribute, times the learned factor.
-  // The step makes up for the factors: fewer rays would add more noise than they save time.
-  double likely = 0;
-  for (const LightPoint& point : scratch.points) likely += double{point.luminance * point.factor};
-  if (!(likely > 0)) return;
-  SystematicChoice choice(likely / double{rays}, u);
+  // Points are chosen in proportion to the unoccluded light that they contribute.
+  double all = 0;
+  for (const LightPoint& point : scratch.points) all += double{point.luminance};
+  if (!(all > 0)) return;
+  SystematicChoice choice(all / double{rays}, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
   for (const LightPoint& point : scratch.points) {
-    const float mass = point.luminance * point.factor;
-    const uint32_t chosen = choice.times(mass);
-    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (mass * count)));
+    const uint32_t chosen = choice.times(point.luminance);
+    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (point.luminance * count)));
   }
 }
 

@@ -10,9 +10,9 @@
 
 namespace pelage {
 
-/// Points on the infinitely far lights of a scene, drawn once per frame: what Light::sample() returns for one
-/// random place in each cell of a grid over its random numbers. Looking up a point costs less than searching
-/// the tables of a large image, which rarely are in the processor's caches.
+/// Points on the infinitely far lights of a scene, sampled once per frame: what Light::sample() returns for
+/// one random place in each cell of a grid over its random numbers. Looking up a point costs less than
+/// searching the tables of a large image, which rarely are in the processor's caches.
 ///
 /// The cells are so small that the random numbers of a sample keep their stratification. The mean over the
 /// seeds is the mean of Light::sample(). For one seed, an environment is replaced by kSide * kSide
@@ -21,10 +21,10 @@ class DrawnLights {
  public:
   static constexpr uint32_t kSide = 128;
 
-  /// `lights` must outlive this object. `draws`: false draws no points; sample() then is Light::sample().
+  /// `lights` must outlive this object. `draws`: if false, no points are stored; sample() is Light::sample().
   DrawnLights(const LightSet& lights, uint64_t seed, bool draws);
 
-  /// Returns a point that was drawn, or Light::sample() if the light is not infinitely far. `u`: two random
+  /// Returns a stored point, or Light::sample() if the light is not infinitely far. `u`: two random
   /// numbers in [0, 1).
   std::optional<LightSample> sample(size_t light, const V3f& from, const V2f& u) const {
     const std::vector<Point>& points = points_[light];

@@ -40,7 +40,7 @@ struct ExitCircle {
     return center + radius * outside(side / std::sqrt(length2));
   }
 
-  /// Converts a sample of a light that was drawn from the center. Returns the line that starts on the circle
+  /// Converts a sample of a light as seen from the center. Returns the line that starts on the circle
   /// and ends at the same point of the light: its direction, its length, and its density per solid angle of
   /// line directions. Empty when no such line reaches this side of the light.
   std::optional<LightSample> toward(const LightSample& seen) const {

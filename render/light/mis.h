@@ -3,8 +3,8 @@
 
 namespace pelage {
 
-/// Returns the weight, by the balance heuristic, of a sample that was drawn with density `pdf` and that
-/// another technique draws with density `other`. Both densities are per solid angle; each technique draws one
+/// Returns the weight, by the balance heuristic, of a sample that one technique takes with density `pdf` and
+/// another would take with density `other`. Both densities are per solid angle; each technique takes one
 /// sample [Veach97, section 9.2.2]. Returns 0 when `pdf` is 0.
 inline float balance_weight(float pdf, float other) { return pdf > 0 ? pdf / (pdf + other) : 0.0f; }
 

@@ -8,7 +8,6 @@
 
 #include "render/fibre/fibre_bsdf.h"
 #include "render/light/exit_circle.h"
-#include "render/light/learned_visibility.h"
 #include "render/light/skin_shadow.h"
 #include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
@@ -70,18 +69,6 @@ class ScatterPoint {
     return shadow_.ball.radius > 0 && shadow_.blocks(start(wi), wi, far);
   }
 
-  const SkinShadow& shadow() const { return shadow_; }
-  /// Returns the fraction of light that arrives along a ray from start(wi), by the shell of the coat. Empty
-  /// if there is none, so that the ray must be traced.
-  std::optional<float> modelled_light(const V3f& wi, float far) const {
-    if (!(shadow_.shell.thickness > 0)) return std::nullopt;
-    if (is_shadowed(wi, far)) return 0.0f;
-    return shadow_.shell.transmittance(shadow_.ball, start(wi), wi, far);
-  }
-  void set_learned(const LearnedVisibility& learned) { learned_ = learned; }
-  /// Returns what is known about the visibility of lights from here.
-  const LearnedVisibility& learned() const { return learned_; }
-
   /// Returns the origin of a ray towards `wi`. For a fibre, the origin is on the circle where light leaves
   /// (see ExitCircle), slightly outside the surface so that the fibre does not shadow itself. Light that
   /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike the circle of exit(), this
@@ -120,7 +107,6 @@ class ScatterPoint {
   ExitCircle exit_;
   bool can_hit_own_strand_ = false;
   SkinShadow shadow_;
-  LearnedVisibility learned_;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

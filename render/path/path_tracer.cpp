@@ -53,7 +53,7 @@ PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmL
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      shading_(scene, options.known),
+      shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       walk_(scene, accel, shading_, options) {}
 

@@ -31,21 +31,21 @@ struct PathState {
 
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At the first
 /// vertex, a path traces up to `render.light_samples` shadow rays to lights (DirectLight), and at every later
-/// vertex up to twice as many. At each vertex, it draws one direction from the lobes for the ray to the next
-/// vertex. At most `render.bounces` scatterings follow the first. Roulette may end a path earlier; the lower
-/// the weight of the path, the more likely (survival()).
+/// vertex up to twice as many. At each vertex, it samples one direction from the lobes for the ray to the
+/// next vertex. At most `render.bounces` scatterings follow the first. Roulette may end a path earlier; the
+/// lower the weight of the path, the more likely (survival()).
 ///
 /// A Sink has two members:
 ///   shadow(path, point, factor, through)
 ///       Receives the result of a shadow ray. The light that arrives at the current vertex is
 ///       point.arriving * factor * through, where `through` is the fraction that nothing blocks.
 ///   met(path, light, radiance, weight, through)
-///       Receives a light that the ray drawn from the lobes hits. The light that arrives at the current
+///       Receives a light that the ray sampled from the lobes hits. The light that arrives at the current
 ///       vertex is radiance * weight * through, where `through` is the fraction that nothing blocks.
 /// It may have a third:
 ///   arrive(path, met)
 ///       Receives each vertex after the first, before its light is found. `met`: the geometry that was hit.
-///       Returns whether the path goes on from there.
+///       Returns whether the path continues from there.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
@@ -65,9 +65,9 @@ class PathWalk {
             Sink& sink) const {
     if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
-  /// Follows a path along `ray` from the first vertex to its end. The caller has drawn the direction of `ray`
-  /// at the first vertex, and has divided `path.first` and `path.weight` by its density. Does not report the
-  /// lights that `ray` itself hits.
+  /// Follows a path along `ray` from the first vertex to its end. The caller has sampled the direction of
+  /// `ray` at the first vertex, and has divided `path.first` and `path.weight` by its density. Does not
+  /// report the lights that `ray` itself hits.
   void follow(const Ray& ray, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
               Sink& sink) const {
     path.ray = ray;
@@ -120,14 +120,6 @@ class PathWalk {
     if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
     return sample_lobes(point, path, lights, scratch, sink);
   }
-  /// Returns the fraction of light that arrives along a shadow ray from `point`. Traces the ray unless the
-  /// coat has a shell.
-  float light_through(const ScatterPoint& point, const Ray& ray, SampleScratch& scratch) const {
-    const std::optional<float> modelled = point.modelled_light(ray.direction, ray.far);
-    if (!modelled) return scratch.light_through(accel_, ray);
-    ++scratch.costs.occlusion.rays_modelled;
-    return *modelled;
-  }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
   void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
@@ -174,17 +166,14 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
   if (lights.points.empty()) return;
   seek(path, kLightChoice);
-  bool is_traced = false;
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
-    is_traced = true;
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
-    sink.shadow(path, to, factor, light_through(point, ray, scratch));
+    sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
-  scratch.costs.occlusion.rays_ended += is_traced ? 0 : 1;
 }
 
-/// Reports the lights that a ray drawn from the lobes of the current vertex `point` hits before `distance`.
+/// Reports the lights that a ray sampled from the lobes of the current vertex `point` hits before `distance`.
 /// With `shadowed`, traces a shadow ray to each of these lights to find the fraction that arrives; otherwise,
 /// nothing blocks them.
 template <class Sink>
@@ -199,7 +188,7 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                           shadow.far = hit.distance * DirectLight::kJustBefore;
                           const bool proved = point.is_shadowed(shadow.direction, shadow.far);
                           scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
-                          through = proved ? 0 : light_through(point, shadow, scratch);
+                          through = proved ? 0 : scratch.light_through(accel_, shadow);
                         }
                         sink.met(path, light, hit.radiance, weight, through);
                       });

@@ -21,10 +21,10 @@ class HeldStrands {
   /// Max memory of the strands that are kept. If they need more, all but the last are dropped.
   static constexpr size_t kMaxBytes = size_t{1} << 20;
 
-  /// Begins a tile: strands that are kept ahead of use may replace all others.
+  /// Begins a tile. From now on, prefetched strands may replace strands of earlier tiles.
   void begin() { ++tile_; }
-  /// Copies a strand that will be used. Does nothing where it would replace another one of the same tile, or
-  /// if memory is short. Call while no strand is lent.
+  /// Prefetches a strand: copies it before it is used. Does nothing if the copy would replace another strand
+  /// of the same tile, or if memory is short. Call while no strand is lent.
   template <class Copy>
   void keep(const StrandHandle& handle, const Copy& copy) {
     Held& held = held_[index(handle)];

@@ -20,7 +20,7 @@ class RasterFilter {
 struct RasterTarget {
   TileLines::Arrays lines;
   bool has_lens = false;
-  float near = 0;     ///< primitives up to this depth are not met
+  float near = 0;     ///< lines ignore primitives up to this depth
   float certain = 0;  ///< where a line meets a primitive up to this depth, its winner becomes kTraced
   uint32_t chunk = 0, primitive = 0;
   const RasterFilter* filter = nullptr;  ///< null: the primitive is opaque

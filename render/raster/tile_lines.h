@@ -15,7 +15,7 @@
 namespace pelage {
 
 /// The lines of sight of all camera samples of a tile, sorted for rasterising, each with the primitive that
-/// it meets first, as far as drawn.
+/// it meets first, among those drawn so far.
 ///
 /// Lines are sorted into groups of similar lens position. Within a group, they are sorted into a
 /// grid of cells, row by row. The lines that a shape may meet are therefore a few runs of consecutive lines.
@@ -42,7 +42,7 @@ class TileLines {
 
   /// Sorts lines. A slot is the index of a line in `lines`. `reference`: a depth at which the lines of a
   /// pixel are close together; may be infinity. `lens_parts`: how often the range of `a` is divided along
-  /// each axis. Each part has a group. Much fewer lines may get fewer groups.
+  /// each axis. Each part has a group. If there are few lines, there may be fewer groups.
   void assign(std::span<const TileLine> lines, float reference, int lens_parts = 1);
   static constexpr int kMaxLensParts = 8;
   /// Returns in how many parts to divide the range of `a` for shapes in this range of depths. More parts find

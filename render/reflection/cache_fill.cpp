@@ -31,7 +31,7 @@ CacheFill::Memory CacheFill::reserve(const RenderScene& scene, const Job& job) {
 CacheFill::CacheFill(const RenderScene& scene, const Accel& accel, bool splatted, const PathOptions& options,
                      Memory memory)
     : scene_(scene),
-      shading_(scene, options.known),
+      shading_(scene, options.balls),
       camera_(scene, accel, splatted),
       paths_(scene, accel, shading_, camera_, options),
       memory_(std::move(memory)),

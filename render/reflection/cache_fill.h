@@ -19,10 +19,10 @@
 namespace pelage {
 
 /// Fills a ReflectionCache for a frame. All threads trace paths of tiles of the whole picture, each tile into
-/// a table of its own. The tables are added up in the order of the tiles. Where memory is short, only a slice
-/// of the cells is filled at a time, and the paths are traced again for each slice, but only those that reach
-/// its cells to their ends. The sums of a cell are the same, so the result depends neither on threads nor on
-/// slices.
+/// a table of its own. The tables are added up in the order of the tiles. Where memory is short, the cells
+/// are filled slice by slice. For each slice, all paths are traced again, but only those that reach a cell of
+/// the slice are followed to their ends. The sums of a cell are the same, so the result depends neither on
+/// threads nor on slices.
 class CacheFill {
  public:
   /// The memory that the cache may need while it is filled.

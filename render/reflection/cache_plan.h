@@ -29,7 +29,7 @@ struct CachePlan {
   /// Returns the plan with this count of slices.
   static CachePlan with_slices(const RenderScene& scene, uint32_t slices);
   /// Returns the plan with the fewest slices that fits `render.gather.memory` or, by default, a quarter of
-  /// what the ledger leaves. If none does, the smallest plan. Throws Error (kMemory) if that exceeds
+  /// what the ledger leaves. If none fits, returns the smallest plan. Throws Error (kMemory) if that exceeds
   /// `render.gather.memory`.
   static CachePlan fitting(const RenderScene& scene, const MemoryLedger& ledger);
 };

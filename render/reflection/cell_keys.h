@@ -30,8 +30,9 @@ using CellPath = std::array<uint64_t, 3>;
 class CellKeys {
  public:
   static constexpr float kPixels = 8;
-  /// A strand has at least this many parts, and at most 128. In the smallest cells, no part is longer than
-  /// kPartPixels, in the next ones twice, and in the largest ones four times this length.
+  /// A strand has at least this many parts, and at most 128. No part is longer than kPartPixels in the
+  /// smallest cells, twice this length in the next larger cells, and four times this length in the largest
+  /// cells.
   static constexpr uint32_t kMinParts = 4;
   static constexpr float kPartPixels = 4;
 

@@ -34,7 +34,7 @@ class CellRange {
   /// Returns whether halve() can be called: not where a range is so short that few largest cells are left.
   bool can_halve() const { return length_ > kAll >> 12; }
   void halve() { length_ = (length_ + 1) / 2; }
-  /// Moves on to the keys after this range. The range after a halved one is twice as long again.
+  /// Moves on to the keys after this range. If this range was halved, the next range is twice as long.
   void advance() {
     first_ += length_;
     length_ = length_ < most_ / 2 ? 2 * length_ : most_;

@@ -16,10 +16,11 @@ namespace pelage {
 /// Thread safety: const members may be called from any thread.
 class ReflectionCache {
  public:
-  /// Fewer paths are too few for an estimate, even in a cell of the largest size.
+  /// Min count of paths for an estimate, in a cell of the largest size.
   static constexpr uint32_t kFewestPaths = 8;
 
-  /// Keeps a reference to `scene`. `reserved`: ends here; it must cover the cells.
+  /// Keeps a reference to `scene`. `reserved`: covers the memory of `cells` until the cache charges it
+  /// itself.
   ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                   MemoryLedger& ledger);
 

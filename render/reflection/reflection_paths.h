@@ -15,8 +15,9 @@ namespace pelage {
 
 /// Traces the paths that fill the reflection cache. A path starts at a camera sample of its own and is traced
 /// as `path` does, to its end. It gives one estimate of the radiance that leaves its second surface towards
-/// the first one, by light, to each cell of the place. The estimates are unbiased, so the mean of a cell
-/// keeps energy. Thread safety: const members may be called from any thread, each with its own scratch.
+/// the first one, by light, to each cell that contains this surface. The estimates are unbiased, so the mean
+/// of a cell keeps energy. Thread safety: const members may be called from any thread, each with its own
+/// scratch.
 class ReflectionPaths {
  public:
   /// Keeps references to its arguments, except `options`.
@@ -35,7 +36,7 @@ class ReflectionPaths {
     CellRange cells;     ///< only paths to these cells are traced to their ends
   };
 
-  /// Traces a share of the paths of the pixels of a tile, and adds those to the cells of the share to
+  /// Traces a share of the paths of the pixels of a tile, and adds the paths that reach cells of the share to
   /// `table`. Returns false when `job` was cancelled.
   bool trace(const Tile& tile, const Share& share, const Job& job, Scratch& scratch,
              ReflectionTable& table) const;

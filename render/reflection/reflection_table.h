@@ -34,8 +34,8 @@ class ReflectionTable {
   /// Removes the smallest cells, and adds no such cells any more: first those of level 0, then those of level
   /// 1, and so on.
   void drop_smallest();
-  /// Replaces sums by estimates of the mean. The estimate of a small cell counts the estimate of the cell
-  /// around it as much as `blend` paths of its own. Call once, after all paths were added.
+  /// Replaces sums by estimates of the mean. In the estimate of a small cell, the estimate of the next larger
+  /// cell weighs as much as `blend` paths of the small cell. Call once, after all paths were added.
   void finish(float blend);
 
   size_t size() const { return cells_.size(); }

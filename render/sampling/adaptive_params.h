@@ -6,13 +6,7 @@
 
 namespace pelage {
 
-enum class AdaptiveRule { kTwoStage, kSeed };
-template <>
-struct EnumNames<AdaptiveRule> {
-  static constexpr const char* names[] = {"two-stage", "seed"};
-};
-
-/// Whether the rule `two-stage` meets its noise budget on average over the frame, or in each pixel.
+/// Whether the noise budget is met on average over the frame, or in each pixel.
 enum class NoiseGoal { kFrame, kPixel };
 template <>
 struct EnumNames<NoiseGoal> {
@@ -21,12 +15,10 @@ struct EnumNames<NoiseGoal> {
 
 /// `adaptive:` of `render:`.
 struct AdaptiveParams {
-  AdaptiveRule rule = AdaptiveRule::kTwoStage;
   NoiseGoal goal = NoiseGoal::kFrame;
   /// Noise budget: half width of the 95 % confidence interval of a pixel's luminance, divided by the mean.
   float noise = 0.05f;
-  int pilot = 16;  ///< rule `two-stage`: samples per pixel before the counts are determined
-  int batch = 32;  ///< rule `seed`: samples of a pixel between two checks
+  int pilot = 16;  ///< samples per pixel before the counts are determined
   static const Schema<AdaptiveParams>& schema();
 };
 

@@ -13,14 +13,7 @@ namespace pelage {
 /// Half width of a 95 % confidence interval, in standard errors.
 inline constexpr double kConfidence = 1.96;
 
-/// Returns whether `rule: seed` stops sampling this pixel: 1.96 sigma / sqrt(n) <= noise * mean, where sigma
-/// is the standard deviation of n samples. Where rare bright samples dominate the mean, a pixel is likely to
-/// stop before it receives a bright sample. Stopped pixels are therefore too dark on average.
-inline bool looks_converged(const PixelMoments& pixel, double noise) {
-  return kConfidence * pixel.error() <= noise * pixel.mean;
-}
-
-/// Estimates for one pixel from the pilot, the samples that the two-stage rule takes first.
+/// Estimates for one pixel from the pilot, the samples that are taken first.
 struct PilotPixel {
   float mean = 0, variance = 0;  ///< of the luminance of single samples
   bool hit = false;              ///< whether any camera ray hit a surface

@@ -23,34 +23,43 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key(
         "spacing", &GatherParams::spacing,
         {.unit = "pixels",
-         .help = "Maximum distance between knots along a strand. Knots are points at which light is "
-                 "gathered, and the samples near a knot share its light. A larger distance gives less "
-                 "noise, but blurs shadows along strands. Indirect light is also averaged over neighbouring "
-                 "strands, over about 8 pixels",
+         .help = "Maximum distance between gather points along a strand. Samples near a gather point share "
+                 "the light that arrives there. A larger distance gives less noise, but blurs shadows along "
+                 "strands. Indirect light is also averaged over neighbouring strands, over about 8 pixels",
          .min = 0.25,
          .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,
-          {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
-    s.key(
-        "cells", &GatherParams::cells,
-        {.help = "true: strands so thin that few samples see a knot share light with their neighbours on the "
-                 "skin, over about 2 pixels"});
-    s.key(
-        "min_width", &GatherParams::min_width,
-        {.unit = "pixels",
-         .help = "The camera sees thinner strands with this width, and as much more transparent, so that the "
-                 "picture is the same on average but less noisy. Strands that level of detail has widened "
-                 "keep their width. Needs `visibility: raster`",
-         .min = 0,
-         .max = 4});
+          {.unit = "pixels",
+           .help = "Maximum distance between gather points on a skin",
+           .min = 0.25,
+           .max = 64});
+    s.key("cells", &GatherParams::cells,
+          {.help = "true: strands so thin that few samples see a gather point share light with their "
+                   "neighbours on the skin, over about 2 pixels"});
+    s.key("min_width", &GatherParams::min_width,
+          {.unit = "pixels",
+           .help =
+               "The camera sees thinner strands at this width and more transparent, so that the picture is "
+               "the same on average. This reduces the noise of strands thinner than a twentieth of a pixel, "
+               "and increases the noise of dense fur. Strands that level of detail has widened keep their "
+               "width. Needs `visibility: raster`",
+           .min = 0,
+           .max = 4});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "
                "lights that would add much "
                "to the brightness of the pixel if nothing blocked them, and whose visibility is uncertain. A "
-               "sample sends at most one ray to each light",
+               "sample sends at most one ray to each light, or two if there is only one light",
            .min = 0.05,
            .max = 16});
+    s.key(
+        "reject", &GatherParams::reject,
+        {.help =
+             "true: the rule of the slides \"Rendering Fur in Life of Pi\", for comparison only. Directions "
+             "from which none of the first rays of a tile arrived get no further rays. Light that the "
+             "first rays miss is lost, so the picture is too dark; `pelage measure samplers` shows by "
+             "how much"});
     s.key("paths", &GatherParams::paths,
           {.help = "Indirect paths per camera sample that sees a strand or skin; dark surfaces get fewer",
            .min = 0.05,

@@ -63,17 +63,12 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
   s.key("skin_ball", &RenderParams::skin_ball,
         {.help = "Balls inside closed skins that replace shadow rays. `exact`: a ray that a ball proves "
                  "blocked is not traced, and points on lights behind it are not chosen; the picture has "
-                 "the same mean. `fractional`: no shadow ray of a point with a ball is "
-                 "traced; the fur dims light by its path through a shell around the ball "
-                 "(approximate). `off`: every shadow ray is traced",
-         .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off"});
-  s.key(
-      "learned_visibility", &RenderParams::learned_visibility,
-      {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
-               "visible from where; shadow rays then choose parts that are probably hidden less "
-               "often, with the same mean of the picture. `reject`: never chosen if all pilot rays "
-               "were blocked, which darkens the picture. With `integrator: gather`, only indirect paths use "
-               "it"});
+                 "the same mean. `off`: every shadow ray is traced",
+         .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off",
+         .removed = {{"fractional", "it made coats up to 12 % too bright; use exact"}}});
+  s.remove({"learned_visibility",
+            "it took longer than it saved; `integrator: gather` learns which light arrives by itself",
+            "false"});
   s.key("screen_door", &RenderParams::screen_door,
         {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
                  "whose width is width times opacity. These rays then end at the first strand, which saves "

@@ -30,16 +30,10 @@ struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
 /// How the balls inside skins replace shadow rays.
-enum class SkinBallUse { kOff, kExact, kFractional };
+enum class SkinBallUse { kOff, kExact };
 template <>
 struct EnumNames<SkinBallUse> {
-  static constexpr const char* names[] = {"off", "exact", "fractional"};
-};
-/// How visibility that pilot rays have learned chooses shadow rays.
-enum class LearnedUse { kOff, kOn, kReject };
-template <>
-struct EnumNames<LearnedUse> {
-  static constexpr const char* names[] = {"false", "true", "reject"};
+  static constexpr const char* names[] = {"off", "exact"};
 };
 /// Returns whether strands are stored in Pelage's own fur trees rather than in Embree. The picture is the
 /// same, except for rounding at the edges of strands.
@@ -88,8 +82,7 @@ struct RenderParams {
   int light_samples = 1;                 ///< shadow rays per vertex of a path
   int bounces = 4;                       ///< max scatterings after the first; 0: direct light only
   std::optional<SkinBallUse> skin_ball;  ///< empty: see ball_use()
-  LearnedUse learned_visibility = LearnedUse::kOff;
-  float clamp_indirect = 0;  ///< max luminance of the indirect light of one path; 0: no limit
+  float clamp_indirect = 0;              ///< max luminance of the indirect light of one path; 0: no limit
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;
@@ -115,8 +108,8 @@ struct RenderParams {
     const bool pays = integrator == Integrator::kGather && skins <= kFewSkins;
     return skin_ball.value_or(pays ? SkinBallUse::kExact : SkinBallUse::kOff);
   }
-  /// Max `bounces` without the reflection cache by default. A single bounce ends where the cache would end
-  /// it. In crowds, an animal covers few pixels, and few paths fill its cells.
+  /// Up to this number of `bounces`, the reflection cache is off by default. A single bounce ends where the
+  /// cache would end it. In crowds, an animal covers few pixels, and few paths fill its cells.
   static constexpr int kFewBounces = 1, kFewBouncesInCrowds = 7;
   /// Returns whether indirect paths of `gather` end in the reflection cache, in a scene with `skins` skins.
   bool uses_cache(size_t skins) const {

@@ -102,6 +102,22 @@ TEST(Schema, ReportsEveryMistakeAtItsPlace) {
             }));
 }
 
+TEST(Schema, TellsWhichKeysWereRemoved) {
+  Schema<Sphere> table("sphere", "");
+  table.remove({"round", "every sphere is", "true"});
+  table.remove({"facets", "give only a radius"});
+  const auto lines = [&](const char* key, const Value& value) {
+    Sphere sphere;
+    Problems problems;
+    table.read(block({{key, value}}), sphere, problems);
+    return lines_of(problems);
+  };
+  EXPECT_EQ(lines("round", scalar("true")), Lines{});
+  EXPECT_EQ(lines("round", scalar("false")), Lines{"t:1:1: 'round' was removed: every sphere is"});
+  EXPECT_EQ(lines("round", block({})), Lines{"t:1:1: 'round' was removed: every sphere is"});
+  EXPECT_EQ(lines("facets", scalar("")), Lines{"t:1:1: 'facets' was removed: give only a radius"});
+}
+
 TEST(Schema, WantsABlock) {
   CurlTable curl;
   Problems problems;

@@ -164,7 +164,7 @@ class Checkpoints(ProgramTest):
         self.assertEqual(self.pixels("a.exr"), self.whole(*SMALL))
 
     def test_what_cannot_have_checkpoints_is_refused_at_once(self):
-        for setting in ("render.adaptive={rule: two-stage}", "render.time_limit=5"):
+        for setting in ("render.adaptive={noise: 0.05}", "render.time_limit=5"):
             err = self.end(self.start_render("--set", setting), 2)
             self.assertIn("checkpoints do not work with", err)
         (self.path / "ck").write_text("a file")

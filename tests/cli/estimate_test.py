@@ -27,7 +27,6 @@ class Estimate(ProgramTest):
     def test_memory_is_near_the_peak(self):
         cases = {"a few hairs": [], "fur": FURRY,
                  "gather": [*FURRY, "--set", "render.integrator=gather"],
-                 "pilots": [*FURRY, "--set", "render.learned_visibility=true"],
                  "embree": [*FURRY, "--set", "render.accel=embree"],
                  "a large picture": ["--set", "image={width: 1600, height: 900}"],
                  "a region": ["--set", "image={width: 1600, height: 900}", "--region", "0,0,320,320"],

@@ -78,7 +78,7 @@ class Farm(ProgramTest):
         self.assertEqual([t["after"] for t in plan["tasks"][1:]], 3 * [["grow"]])
 
     def test_a_frame_is_a_task_where_regions_are_refused(self):
-        for value in "adaptive={rule: two-stage}", "time_limit=5":
+        for value in "adaptive={noise: 0.05}", "time_limit=5":
             task, = self.plan("--set", f"render.{value}", "--frames", "7")["tasks"]
             self.assertNotIn("--checkpoint", task["command"])
             self.assertEqual(self.start_task(task).wait(), 0)
@@ -124,7 +124,7 @@ class Farm(ProgramTest):
                       self.refused("submit", *plan[1:], "--dry-run", "--time", "banana"))
         self.assertIn("--time: expected minutes", self.refused("submit", *plan[1:], "--dry-run", "--time", "1" * 100000))
         self.assertIn("cannot all be written to", self.refused("plan", "scene.yaml", "-o", "a.exr", "--frames", "1-2"))
-        for value, why in ("adaptive={rule: two-stage}", "the sample count of a pixel depends on the whole picture"), (
+        for value, why in ("adaptive={noise: 0.05}", "the sample count of a pixel depends on the whole picture"), (
                 "time_limit=5", "regions would have different sample counts"):
             refused = self.refused(*plan, "--regions", "2x2", "--set", f"render.{value}")
             self.assertIn(why, refused)

@@ -12,7 +12,7 @@ using ColorTest = OperatorTest;
 
 TEST_F(ColorTest, FrequencyIsTheLeastThatHoldsTheColours) {
   const auto frequency = [](const char* field, float variation) {
-    return Color({.value = scene_text::read<Field>(field), .variation = variation}).colors();
+    return Color({.value = scene_text::read<Field>(field), .variation = variation}).traits().colors;
   };
   EXPECT_EQ(frequency("[1, 0.5, 0]", 0), AttributeClass::kConstant);
   EXPECT_EQ(frequency("[1, 0.5, 0]", 0.2f), AttributeClass::kPerStrand);

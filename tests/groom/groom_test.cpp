@@ -295,7 +295,7 @@ struct WarningLog final : Progress {
   std::vector<std::string> lines;
 };
 
-// A file in another unit or of another character is drawn where it is, and somebody says so.
+// A file in another unit or of another character is rendered where it is, with a warning.
 TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
   const TemporaryFolder folder;
   const auto original = grow_coat("- length: {value: 0.4}\n- width:\n", 60, 400);

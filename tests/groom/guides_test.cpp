@@ -76,7 +76,7 @@ TEST_F(GuidesTest, SpreadKeepsFolliclesNearGuides) {
   GuidesParams near = params();
   near.spread = 0.1f;
   const Guides op = prepared<Guides>(near);
-  EXPECT_TRUE(op.restricts_coverage());
+  EXPECT_TRUE(op.traits().restricts_coverage);
   FollicleOptions options;
   options.count = 1000;
   options.coverage = [&op](const V3f& at, const V3f& normal) { return op.coverage(at, normal); };

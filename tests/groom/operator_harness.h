@@ -97,23 +97,19 @@ class OperatorTest : public testing::Test {
     return batch;
   }
 
-  /// The operator moves no point of random strands by more than its bound, some point by more than 1 / 1.5 of
-  /// it, and what it says of its result holds.
+  /// What the operator says of its result holds for random strands, and some point of them is farther from
+  /// its root than `min` times the max distance that it states.
   void check_bounds(const Operator& op, const StrandReach& before, float min = 1.0f / 1.5f) const {
-    const float bound = op.displacement_bound(before);
     const StrandReach after = op.reach_after(before);
-    float measured = 0;
     StrandReach seen{0, 0, 0, 0, before.segments};
     for (uint64_t round = 0; round < 24; ++round) {
       auto batch = random_strands(before, (round % 7) * kBlockStrands, round);
-      const StrandBatch original = *batch;
       op.apply(*batch);
       for (size_t s = 0; s < batch->count; ++s) {
         float length = 0;
         for (int p = 0; p < batch->point_count(); ++p) {
           const V3f point = batch->offset(p, s);
           ASSERT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z));
-          measured = std::max(measured, (point - original.offset(p, s)).length());
           seen.distance = std::max(seen.distance, point.length());
           seen.radius = std::max(seen.radius, batch->points[static_cast<size_t>(p)].radius[s]);
           if (p == 0) continue;
@@ -130,10 +126,9 @@ class OperatorTest : public testing::Test {
       }
     }
     const float room = 1.0f + 1e-4f;
-    EXPECT_LE(measured, bound * room);
-    EXPECT_GT(measured, bound * min) << "the bound is loose";
     EXPECT_LE(seen.length, after.length * room);
     EXPECT_LE(seen.distance, after.distance * room);
+    EXPECT_GT(seen.distance, after.distance * min) << "the bound is loose";
     EXPECT_LE(seen.radius, after.radius * room);
     EXPECT_LE(seen.lean, after.lean + 2e-3f);
   }

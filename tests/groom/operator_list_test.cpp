@@ -30,11 +30,11 @@ TEST(OperatorList, ReadsOperatorsInOrder) {
       "- color: {value: {ramp: {along: strand, knots: [[0, [0.1, 0.08, 0.06]], [1, [0.5, 0.3, 0.15]]]}}}\n");
   ASSERT_EQ(list.items.size(), 9u);
   EXPECT_EQ(list.items[2].name, "clump");
-  EXPECT_EQ(list.items[2].prototype->name(), "clump");
+  EXPECT_EQ(list.items[2].prototype->traits().name, "clump");
   EXPECT_EQ(list.items[2].position.line, 4);
-  EXPECT_FALSE(list.items[6].prototype->reads_rest_only());
+  EXPECT_FALSE(list.items[6].prototype->traits().reads_rest_only);
   const auto copy = list.items[4].clone(*list.items[4].prototype);
-  EXPECT_EQ(copy->name(), "frizz");
+  EXPECT_EQ(copy->traits().name, "frizz");
 }
 
 TEST(OperatorList, NamesTheNearestOperatorAndKey) {

@@ -51,10 +51,10 @@ class Documents(unittest.TestCase):
     def test_every_citation_has_an_entry(self):
         bibliography = (ROOT / "docs" / "references.bib").read_text()
         keys = re.findall(r"^@\w+\{([^,]+),", bibliography, re.MULTILINE)
-        self.assertEqual(len(keys), len(set(keys)), "an entry stands twice")
+        self.assertEqual(len(keys), len(set(keys)), "an entry is there twice")
         cited = set()
-        rooms = [p for p in ROOT.glob("*/CMakeLists.txt") if p.parent.name not in ("tests", "bench")]
-        for folder in {p.parent for p in rooms}:
+        modules = [p for p in ROOT.glob("*/CMakeLists.txt") if p.parent.name not in ("tests", "bench")]
+        for folder in {p.parent for p in modules}:
             for path in folder.rglob("*"):
                 if path.suffix in (".h", ".cpp"):
                     comments = "\n".join(re.findall(r"//(.*)", path.read_text()))

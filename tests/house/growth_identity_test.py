@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from rooms import read_rooms
+from modules import read_modules
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOMS = ["base", "image", "geom", "groom"]
@@ -44,10 +44,10 @@ class GrowthIdentity(unittest.TestCase):
         (self.root / "cache" / "residency.cpp").write_text("")
         self.assertEqual(self.identity(), right)
 
-    def test_growth_includes_no_other_room(self):
+    def test_growth_includes_no_other_module(self):
         listed = (ROOT / "groom" / "CMakeLists.txt").read_text()
         self.assertIn("set(rooms " + " ".join(ROOMS) + ")", listed)
-        table = read_rooms((ROOT / "docs" / "ARCHITECTURE.md").read_text())
+        table = read_modules((ROOT / "docs" / "ARCHITECTURE.md").read_text())
         self.assertEqual(table["groom"].may_include | {"groom"}, set(ROOMS))
 
 

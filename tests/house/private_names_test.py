@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sanitizer builds compile several sources of a room as one. There, private constants, types and aliases of the same name
+"""Sanitizer builds compile several sources of a module as one. There, private constants, types and aliases of the same name
 do not compile (except for two equal aliases), and a private function of the same name is an overload, which a call may
 pick by mistake. Such files are listed after ALONE."""
 import pathlib
@@ -23,7 +23,7 @@ def listed(cmake, keyword):
 
 
 def joined_sources(folder):
-    """Sources of a room, or of its tests, that sanitizer builds compile together."""
+    """Sources of a module, or of its tests, that sanitizer builds compile together."""
     cmake = (folder / "CMakeLists.txt").read_text()
     cmake = re.sub(r"^  (SOURCES|THREADED|STATISTICS)\n\s+", r"  \1 ", cmake, flags=re.M)
     sources = listed(cmake, "SOURCES") | listed(cmake, "THREADED")
@@ -114,11 +114,11 @@ const S& f(int i) {
         self.assertEqual(self.shared("using A = int;", "struct A;"), ["A"])
         self.assertEqual(self.shared("constexpr int kA = 1;", "constexpr int kB = kA;"), [])
 
-    def test_rooms(self):
-        rooms = [path.parent for path in sorted(ROOT.glob("*/CMakeLists.txt")) if path.parent.name not in ("tests", "bench", "build")]
-        self.assertGreater(len(rooms), 10)
-        problems = [problem for room in rooms + sorted(path.parent for path in ROOT.glob("tests/*/CMakeLists.txt"))
-                    for problem in shared_names(room)]
+    def test_modules(self):
+        modules = [path.parent for path in sorted(ROOT.glob("*/CMakeLists.txt")) if path.parent.name not in ("tests", "bench", "build")]
+        self.assertGreater(len(modules), 10)
+        problems = [problem for module in modules + sorted(path.parent for path in ROOT.glob("tests/*/CMakeLists.txt"))
+                    for problem in shared_names(module)]
         self.assertEqual(problems, [], "\n".join(problems))
 
 

@@ -91,14 +91,17 @@ class Measure(unittest.TestCase):
     def test_samplers(self):
         self.measure("samplers", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--set", "render.samples=256")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        self.assertEqual(len(rows), 10)
+        self.assertEqual(len(rows), 12)
         for samples in 16, 64:
-            plain, frame = rows[f"plain, {samples}"], rows[f"two-stage, frame, {samples}"]
+            plain, frame = rows[f"plain, {samples}"], rows[f"adaptive, frame, {samples}"]
             self.assertEqual(plain["samples"], samples)
             self.assertAlmostEqual(plain["gain"], 1, 6)
             self.assertGreater(frame["samples"], 3)
             self.assertGreater(plain["rel_mse"], 0)
             self.assertLess(abs(frame["bias"]), 0.05)
+            gather, rejecting = rows[f"gather, {samples}"], rows[f"gather, rejecting, {samples}"]
+            self.assertEqual(rejecting["samples"], samples)
+            self.assertLess(rejecting["bias"], gather["bias"] - 0.01)
 
     def test_bounces(self):
         self.measure("bounces", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "8",
@@ -120,11 +123,11 @@ class Measure(unittest.TestCase):
 
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
-                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,no_cache,skin_ball_learned", "--set", "image.width=48",
+                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,no_cache,skin_ball", "--set", "image.width=48",
                      "--set", "image.height=32", "--set", "render.gather.cache_paths=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true",
-                  "path, skin_ball: exact, learned_visibility: true"]
+                  "path, skin_ball: exact"]
         self.assertIn("no_cache is left out", (self.path / "out/report.html").read_text())  # a single bounce has none
         names = ["warm-up", "reference-a", "reference-b"]
         for curve in curves:
@@ -151,7 +154,6 @@ class Measure(unittest.TestCase):
                 self.assertEqual(many["knots"], 0)
                 self.assertIsNone(many["reuse_bias"])
             self.assertIsNone(few["reuse_bias"])
-            self.assertEqual(many["rays_pilot"] > 0, "learned" in curve)
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_knot"], 1)
         self.assertGreater(rows["gather, 16"]["samples_per_knot"], 1)
         cached = rows["gather, cache: true, 16"]

@@ -331,8 +331,9 @@ TEST(Simplification, WithoutWidthStrandsAreOnlyThinned) {
   EXPECT_EQ(s.width_factor(0.1f, 0.9f), 0);
 }
 
-// Colours that vary are drawn to their mean by the root of the share [Cook07, eq. 22]; curves may move by a
-// tenth of a pixel, which is half as long in the scene for a camera twice as near, or twice the quality.
+// Colours that vary are brought closer to their mean by the root of the share [Cook07, eq. 22]; curves may
+// move by a tenth of a pixel, which is half as long in the scene for a camera twice as near, or twice the
+// quality.
 TEST(Simplification, ContrastAndToleranceAreWhatTheySay) {
   const Simplification s = sized();
   for (const float share : {0.01f, 0.25f, 0.81f}) EXPECT_FLOAT_EQ(s.contrast(share), std::sqrt(share));

@@ -43,9 +43,9 @@ struct SphereTestSize {
   double z_low = -1, z_high = 1;  ///< part of the sphere that the cells divide; one more cell takes the rest
 };
 
-/// Draws directions and compares their counts in cells of the sphere with the integral of the density there.
-/// `sample` is called with 0 .. samples-1 and gives an optional direction; `pdf` is per solid angle.
-/// Directions that were not drawn belong to the rest cell, as does density outside the cells.
+/// Samples directions and compares their counts in cells of the sphere with the integral of the density
+/// there. `sample` is called with 0 .. samples-1 and gives an optional direction; `pdf` is per solid angle.
+/// Directions that were not sampled belong to the rest cell, as does density outside the cells.
 template <class Sample, class Pdf>
 ChiSquare sphere_chi_square(const SphereGrid& grid, Sample&& sample, Pdf&& pdf,
                             const SphereTestSize& size = {}) {

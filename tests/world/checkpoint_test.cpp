@@ -235,7 +235,7 @@ TEST_F(CheckpointTest, AFileThatCannotBeWrittenIsAWarning) {
 
 TEST_F(CheckpointTest, AdaptiveSamplingAndATimeLimitAreRefused) {
   for (const auto& [key, value] :
-       {std::pair{"render.adaptive", "{rule: two-stage}"}, {"render.time_limit", "5"}}) {
+       {std::pair{"render.adaptive", "{noise: 0.05}"}, {"render.time_limit", "5"}}) {
     NoProgress none;
     Checkpoint saver = checkpoint({{key, value}}, none);
     EXPECT_THROW(render_some({{key, value}}, &saver, kNever, 1), Error);

@@ -75,22 +75,20 @@ TEST(ShadingCurves, SwitchWhatTheSceneDoesNot) {
 TEST(ShadingCurves, SwitchEverythingAboutOcclusionOnTogetherAndAllButOne) {
   const SceneDescription scene;
   const std::vector<ShadingCurve> curves =
-      shading_curves(scene, {"together", "together_learned", "gather_together"});
+      shading_curves(scene, {"together", "together_screen_door", "gather_together"});
   ASSERT_EQ(curves.size(), 4u);
   using Settings = std::vector<std::pair<std::string, std::string>>;
   const auto occlusion = [](const ShadingCurve& curve) {
-    return Settings(curve.settings.end() - 4, curve.settings.end());
+    return Settings(curve.settings.end() - 3, curve.settings.end());
   };
-  Settings all{{"render.skin_ball", "exact"},
-               {"render.learned_visibility", "true"},
-               {"render.screen_door", "true"},
-               {"render.occlusion_detail", "true"}};
+  Settings all{
+      {"render.skin_ball", "exact"}, {"render.screen_door", "true"}, {"render.occlusion_detail", "true"}};
   EXPECT_EQ(occlusion(curves[1]), all);
   EXPECT_EQ(occlusion(curves[3]), all);
   EXPECT_TRUE(curves[3].gather);
   all[1].second = "false";
   EXPECT_EQ(occlusion(curves[2]), all);
-  EXPECT_EQ(curves[2].title, "path, together without learned_visibility");
+  EXPECT_EQ(curves[2].title, "path, together without screen_door");
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ class Bundle {
     return hit;
   }
 
-  /// Where light leaves by a way drawn from those that may have sent it there. Each leg inside turns the
+  /// Where light leaves, on a random one of the ways on which it can come there. Each leg inside turns the
   /// place by pi - 2 gamma_t.
   static V3f exit_normal(const FibreFrame& frame, float h, const std::array<float, kFibreLobes>& densities,
                          float u) {

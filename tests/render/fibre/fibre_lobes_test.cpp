@@ -72,7 +72,7 @@ TEST(Longitudinal, SamplesAsTheFormulaSays) {
   EXPECT_NEAR(LongitudinalLobe(.00651572f).sample({0.4f, 0.1f}, s, c), -.20942672, 1e-6);
 }
 
-/// Smooth fibres: what is drawn is what the density says, cell by cell about the peak.
+/// Smooth fibres: samples follow the density, cell by cell about the peak.
 TEST(Longitudinal, NarrowLobesPassChiSquare) {
   const double level = sidak_level(1e-4, 9);
   uint64_t seed = 40;

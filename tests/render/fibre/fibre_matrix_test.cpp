@@ -27,7 +27,7 @@ P grey_medulla(float width) {
   return p;
 }
 
-/// Models whose lobes are chosen by what they carry and drawn exactly, in a colour without hue.
+/// Models whose lobes are chosen by the light they carry and sampled exactly, in a colour without hue.
 std::vector<MaterialParams> exact_models(float degrees, float roughness) {
   LambertCylinderParams tube;
   tube.albedo = Rgb(0.5f);

@@ -16,7 +16,7 @@ struct Weights {
   double mean = 0;
 };
 
-/// rho / pdf of directions drawn for one way of looking at a fibre, in its most weighted channel.
+/// rho / pdf of directions sampled for one way of looking at a fibre, in its most weighted channel.
 Weights weights_at(const FibreMaterial& material, const FibrePoint& point, int samples, uint64_t seed) {
   const FibreBsdf bsdf = material.at(point);
   TestRandom random(seed);
@@ -48,8 +48,8 @@ std::vector<MarschnerParams> marschner_fibres() {
   return all;
 }
 
-/// Lobes drawn about theta_o weigh up to 2,000 there. Three times the mean is where a pole cuts a wide lobe,
-/// whose energy changes fastest between the places that the proposal knows.
+/// Lobes sampled about theta_o weigh up to 2,000 there. Three times the mean is where a pole cuts a wide
+/// lobe, whose energy changes fastest between the places that the proposal knows.
 TEST(FibreWeight, OfMarschnerStaysNearTheAlbedo) {
   for (const MarschnerParams& params : marschner_fibres()) {
     const FibreMaterial material(params);
@@ -65,7 +65,7 @@ TEST(FibreWeight, OfMarschnerStaysNearTheAlbedo) {
   }
 }
 
-/// Directions that are not drawn would be light that is lost.
+/// Light in directions that are never sampled would be lost.
 TEST(FibreWeight, OfMarschnerAveragesToTheIntegral) {
   for (const MarschnerParams& params : marschner_fibres()) {
     if (params.beta < 5) continue;  // quadrature needs lobes of some width
@@ -97,7 +97,7 @@ TEST(FibreWeight, ATangleOfHalvedMarschnerHasAnEnd) {
   EXPECT_NEAR(brightness(0.02f), 0.265, 0.03);
 }
 
-/// Lobes of the others are drawn exactly: a sample weighs the albedo, but for hue.
+/// Lobes of the others are sampled exactly: a sample weighs the albedo, but for hue.
 TEST(FibreWeight, OfExactLobesIsTheAlbedoButForHue) {
   ChiangParams chiang;
   chiang.absorption = Rgb(0.05f, 0.4f, 1.5f);

@@ -172,11 +172,10 @@ struct RegionWatch final : FrameWatch {
 };
 
 TEST(FrameWatch, RefinesARegionFirstAndChangesNoPixel) {
-  for (const char* kind : {"uniform", "two-stage", "seed", "splatted"}) {
+  for (const char* kind : {"uniform", "adaptive", "splatted"}) {
     FurScene scene;
     scene.render.samples = 40;
-    if (kind == std::string("two-stage")) scene.render.adaptive.emplace();
-    if (kind == std::string("seed")) scene.render.adaptive.emplace().rule = AdaptiveRule::kSeed;
+    if (kind == std::string("adaptive")) scene.render.adaptive.emplace();
     if (kind == std::string("splatted")) scene.image.filter_samples = FilterSamples::kSplatted;
     const FrameResult alone = rendered(scene, {});
     RegionWatch watch;

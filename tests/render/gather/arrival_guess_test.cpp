@@ -55,6 +55,17 @@ TEST(ArrivalGuess, LearnsTheFractionByZoneAndDirection) {
   EXPECT_EQ(guess.fraction(0, 0, up), 0.0f) << "the next tile";
 }
 
+TEST(ArrivalGuess, RejectsWhereNoRayArrived) {
+  ArrivalGuess guess = learned();
+  const uint32_t up = ArrivalGuess::range_of(kUp), down = ArrivalGuess::range_of(kDown);
+  guess.learn(true);
+  EXPECT_EQ(guess.deviation(0, 0, down), 0.0f);
+  EXPECT_EQ(guess.fraction(0, 0, down), 0.0f);
+  EXPECT_NEAR(guess.deviation(0, 0, up), std::sqrt(0.25f * 0.75f), 0.01f) << "some rays arrived";
+  EXPECT_GT(guess.deviation(1, 0, down), 0.0f) << "no rays";
+  EXPECT_GT(guess.deviation(7, 0, down), 0.0f) << "an unknown zone";
+}
+
 TEST(ArrivalGuess, LeavesRaysOut) {
   const ArrivalGuess guess = learned();
   const uint32_t up = ArrivalGuess::range_of(kUp);

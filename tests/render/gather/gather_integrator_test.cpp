@@ -51,6 +51,26 @@ TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) 
   EXPECT_GT(depths / pixels, 0.98);
 }
 
+// The rule of the film, with its bias: what the first rays of a tile miss stays dark.
+TEST(GatherIntegrator, RejectionLosesLight) {
+  double mean[2] = {0, 0}, square[2] = {0, 0};
+  constexpr int kRuns = 6;
+  for (const bool rejects : {false, true}) {
+    GatherScene scene;
+    scene.render.bounces = 0;
+    scene.render.samples = 16;
+    scene.render.gather.reject = rejects;
+    for (int run = 0; run < kRuns; ++run) {
+      scene.render.seed = 2 * run + rejects;
+      const double of_run = luminance(picture_mean(scene.run({}, 2).film).mean);
+      mean[rejects] += of_run / kRuns;
+      square[rejects] += of_run * of_run / kRuns;
+    }
+  }
+  const auto variance = [&](int i) { return (square[i] - mean[i] * mean[i]) / (kRuns - 1); };
+  EXPECT_LT(mean[1], mean[0] - 3.3 * std::sqrt(variance(0) + variance(1)));
+}
+
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   scene.render.gather.cache = false;  // its memory has the same tag
@@ -58,7 +78,7 @@ TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
-  // One light is an environment: 32 bytes per drawn point (DrawnLights::bytes()).
+  // One light is an environment: 32 bytes per stored point (DrawnLights::bytes()).
   const size_t most = 3 * tile + 32 * size_t{DrawnLights::kSide} * DrawnLights::kSide;
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(most));
   EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);

@@ -6,7 +6,7 @@
 #include "render/gather/knot_keys.h"
 #include "tests/render/path/path_scene.h"
 
-/// Scenes in which hits are assigned to knots.
+/// Scenes in which hits are assigned to gather points.
 namespace pelage::key_scene {
 
 constexpr int kSize = 100;

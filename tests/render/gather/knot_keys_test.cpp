@@ -15,7 +15,7 @@ namespace {
 using key_scene::hit_on;
 using key_scene::key_of;
 
-/// Samples per pixel: so many that strands are not too thin for knots.
+/// Samples per pixel: so many that strands are not too thin for gather points.
 constexpr uint32_t kSamples = 64;
 
 /// A straight strand of `length` across the view.
@@ -25,7 +25,7 @@ HitGeometry strand(float length) {
   return met;
 }
 
-/// Knots that a strand has within the given part of its length, and how often each is chosen.
+/// Gather points that a strand has within the given part of its length, and how often each is chosen.
 std::map<uint64_t, int> knots(const KnotKeys& keys, const HitGeometry& met, float from, float to) {
   std::map<uint64_t, int> result;
   for (uint64_t i = 0; i < 4000; ++i) {
@@ -49,7 +49,7 @@ TEST(KnotKeys, AreAsFarApartAsTheSpacingAtMost) {
 TEST(KnotKeys, InterpolateLinearlyOnAverage) {
   const RenderScene scene = key_scene::make({});
   const KnotKeys keys(scene, kSamples);
-  const HitGeometry met = strand(0.5f);  // knots at 0, 1/4, 1/2, 3/4, 1
+  const HitGeometry met = strand(0.5f);  // gather points at 0, 1/4, 1/2, 3/4, 1
   const auto around = knots(keys, met, 0.299f, 0.301f);
   ASSERT_EQ(around.size(), 2u);
   const uint64_t before = key_of(keys, hit_on(0.25f), met, {0, 0}).knot;
@@ -135,7 +135,7 @@ TEST(KnotKeys, AFaceOfASkinHasAGridOfKnots) {
     ++found[key_of(keys, hit, met, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))}).knot];
   }
   // The face is 50 x 25 pixels: 32 x 16 parts of at most 2 pixels. Half of its u and v, below the diagonal:
-  // 17 x 9 knots, of which about half are near the triangle.
+  // 17 x 9 gather points, of which about half are near the triangle.
   EXPECT_GT(found.size(), 70u);
   EXPECT_LT(found.size(), 110u);
 }

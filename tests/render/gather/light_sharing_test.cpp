@@ -16,7 +16,7 @@ namespace {
 /// Points with unoccluded light from two light points of each of two lights, some of which reach them.
 struct Points {
   static constexpr uint32_t kCount = 600, kKnots = 40, kZones = 3, kLights = 2, kLightPoints = 2;
-  static constexpr size_t kNumbers = 3 * kLobeGroups * kLights;  // of a knot
+  static constexpr size_t kNumbers = 3 * kLobeGroups * kLights;  // of a gather point
 
   static uint32_t knot(uint32_t point) { return static_cast<uint32_t>(hash64(point, 1) % kKnots); }
   static uint32_t zone(uint32_t knot) { return knot % kZones; }
@@ -45,7 +45,8 @@ struct Points {
   static size_t index(uint32_t knot, uint32_t light, uint32_t group, uint32_t c) {
     return knot * kNumbers + (light * kLobeGroups + group) * 3 + c;
   }
-  /// Sums over the points of each knot, by light, lobe group and colour: of what arrives, or of everything.
+  /// Sums over the points of each gather point, by light, lobe group and colour: of what arrives, or of
+  /// everything.
   static std::vector<double> sums(bool arriving) {
     std::vector<double> result(kKnots * kNumbers);
     for (uint32_t p = 0; p < kCount; ++p) {
@@ -62,7 +63,7 @@ struct Points {
     }
     return result;
   }
-  /// The light that `sharing` computes for each knot.
+  /// The light that `sharing` computes for each gather point.
   static std::vector<double> sums(const LightSharing& sharing) {
     std::vector<double> result = sums(false);
     for (uint32_t k = 0; k < kKnots; ++k) {
@@ -80,8 +81,8 @@ struct Points {
 /// Guess of the fraction that arrives in a zone: 0, or about the mean fraction.
 float guess_in(uint32_t zone, bool guess) { return guess ? 0.15f + 0.4f * static_cast<float>(zone) : 0.0f; }
 
-/// Adds every point, and rays of about the given part of them, chosen for each knot independently. A ray goes
-/// to one of the light points, chosen in proportion to its luminance.
+/// Adds every point, and rays of about the given part of them, chosen for each gather point independently. A
+/// ray goes to one of the light points, chosen in proportion to its luminance.
 void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
   sharing.begin(Points::kLights);
   std::vector<SystematicChoice> choices;
@@ -132,7 +133,7 @@ TEST(LightSharing, IsExactWhenEveryLightPointHasItsRay) {
   for (size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(sums[i], truth[i], 1e-4 * (1 + truth[i])) << i;
 }
 
-/// Mean and variance, over many choices of rays, of the light of each knot.
+/// Mean and variance, over many choices of rays, of the light of each gather point.
 std::vector<PixelMoments> moments(bool guess) {
   std::vector<PixelMoments> result(Points::kKnots * Points::kNumbers);
   LightSharing sharing;

@@ -30,7 +30,7 @@ std::vector<Rgb> radiance_of(uint32_t point) {
   return {Rgb(3, 2, 1) * noise, Rgb(0.1f, 0.2f, 0.3f) / noise};
 }
 
-/// The light that the points of a knot scatter, by light and lobe.
+/// The light that the points of a gather point scatter, by light and lobe.
 std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t knot) {
   std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
   for (uint32_t p = knot; p < kPoints; p += kKnots) {
@@ -109,7 +109,8 @@ TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
   EXPECT_LT(variances[1], 0.2 * variances[0]);
 }
 
-/// The light that the knots of one of two patches scatter, by light and lobe. Knot k belongs to patch k % 2.
+/// The light that the gather points of one of two patches scatter, by light and lobe. Gather point k belongs
+/// to patch k % 2.
 std::vector<Rgb> light_of_patch(const PathSharing& sharing, uint32_t patch) {
   std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
   for (uint32_t knot = patch; knot < kKnots; knot += 2) {
@@ -154,8 +155,8 @@ TEST(PathSharing, BlendingTakesMostOfTheNoiseOfKnots) {
     }
     for (const PixelMoments& of : moments) variances[blended ? 1 : 0] += of.variance();
   }
-  // The mean of a patch of five knots has a fifth of their variance. Each knot also keeps some noise of its
-  // own.
+  // The mean of a patch of five gather points has a fifth of their variance. Each gather point also keeps
+  // some noise of its own.
   EXPECT_LT(variances[1], 0.4 * variances[0]);
   EXPECT_GT(variances[1], 0.1 * variances[0]);
 }

@@ -147,7 +147,7 @@ TEST(EnvironmentMap, SingleTexelsAreFoundEvenAtThePoles) {
 }
 
 // Of images with more texels than a map has cells, the same must hold as of others: the density is that of a
-// distribution of texels, and what is drawn follows it.
+// distribution of texels, and samples follow it.
 TEST(EnvironmentMap, CellsOfManyTexelsChangeNoDensity) {
   Image image = speckled(53, 29);  // cells at the edges are cut off
   image.at(17, 3)[1] = 4000;       // a sun

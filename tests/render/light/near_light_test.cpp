@@ -75,7 +75,7 @@ Estimate rendered(const NearLight& light, float slant, CurveShape shape, int64_t
   });
 }
 
-/// By brute force: rays from the eye to a cylinder about the y axis; light drawn from the lobes; a straight
+/// By brute force: rays from the eye to a cylinder about the y axis; light sampled from the lobes; a straight
 /// line from the place where that light leaves the cylinder, by refraction, to the rectangle or past it.
 Estimate traced(const NearLight& light) {
   const ChiangParams params = fibre();

@@ -48,17 +48,6 @@ TEST(AdaptivePath, TheBudgetIsKeptAndTheSkyCostsAQuarterOfThePilot) {
   EXPECT_GT(fur, 300u);
 }
 
-TEST(AdaptivePath, TheSeedRuleStopsEachPixelByItself) {
-  LampScene scene;
-  scene.render.adaptive->rule = AdaptiveRule::kSeed;
-  const FrameResult result = scene.run();
-  for (const PixelMoments& pixel : result.film.moments()) {
-    EXPECT_EQ(pixel.count % 32, 0u);
-    EXPECT_TRUE(looks_converged(pixel, 0.15) || pixel.count == 512);
-  }
-  EXPECT_EQ(result.samples, 32u);
-}
-
 TEST(AdaptivePath, PixelByPixelMostKeepTheBudget) {
   LampScene scene;
   scene.render.samples = 1 << 14;

@@ -13,22 +13,19 @@ namespace pelage {
 namespace {
 
 TEST(AdaptivePath, ThreadsMemoryAndPassesDoNotChangeThePicture) {
-  for (AdaptiveRule rule : {AdaptiveRule::kTwoStage, AdaptiveRule::kSeed}) {
-    LampScene scene;
-    scene.render.samples = static_cast<int>(at_least(72, 300));
-    scene.render.adaptive->rule = rule;
-    const FrameResult one = scene.run({}, 1), many = scene.run({}, 4);
-    const ExrImage a = picture_of(one.film), b = picture_of(many.film);
-    ASSERT_EQ(a.channels.size(), b.channels.size());
-    int named = 0;
-    for (size_t i = 0; i < a.channels.size(); ++i) {
-      EXPECT_EQ(a.channels[i].pixels, b.channels[i].pixels) << a.channels[i].name;
-      EXPECT_EQ(a.channels[i].ids, b.channels[i].ids) << a.channels[i].name;
-      named += a.channels[i].name == "samples" || a.channels[i].name == "noise";
-    }
-    EXPECT_EQ(named, 2);
-    EXPECT_FALSE(one.time_limited);
+  LampScene scene;
+  scene.render.samples = static_cast<int>(at_least(72, 300));
+  const FrameResult one = scene.run({}, 1), many = scene.run({}, 4);
+  const ExrImage a = picture_of(one.film), b = picture_of(many.film);
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  int named = 0;
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    EXPECT_EQ(a.channels[i].pixels, b.channels[i].pixels) << a.channels[i].name;
+    EXPECT_EQ(a.channels[i].ids, b.channels[i].ids) << a.channels[i].name;
+    named += a.channels[i].name == "samples" || a.channels[i].name == "noise";
   }
+  EXPECT_EQ(named, 2);
+  EXPECT_FALSE(one.time_limited);
 }
 
 TEST(AdaptivePath, ATimeLimitLeavesAWholePicture) {
@@ -71,15 +68,12 @@ class Bar final : public Progress {
 
 TEST(AdaptivePath, TheProgressBarEndsFull) {
   for (NoiseGoal goal : {NoiseGoal::kFrame, NoiseGoal::kPixel}) {
-    for (AdaptiveRule rule : {AdaptiveRule::kTwoStage, AdaptiveRule::kSeed}) {
-      LampScene scene;
-      scene.render.samples = static_cast<int>(at_least(48, 128));
-      scene.render.adaptive->rule = rule;
-      scene.render.adaptive->goal = goal;
-      Bar bar;
-      scene.run({}, 1, bar);
-      EXPECT_LT(bar.worst(), 1e-6);
-    }
+    LampScene scene;
+    scene.render.samples = static_cast<int>(at_least(48, 128));
+    scene.render.adaptive->goal = goal;
+    Bar bar;
+    scene.run({}, 1, bar);
+    EXPECT_LT(bar.worst(), 1e-6);
   }
 }
 

@@ -46,18 +46,6 @@ class Average {
   PixelMoments values_, samples_;
 };
 
-Estimate by_seed_rule(const Sampler& sampler, uint32_t min, int pixels) {
-  Average average;
-  for (int p = 0; p < pixels; ++p) {
-    PixelMoments m;
-    do {
-      for (int i = 0; i < 16; ++i) m.add(sampler(random(p, m.count)));
-    } while (m.count < min || (!looks_converged(m, 0.05) && m.count < 8192));
-    average.add(m.mean, m.count);
-  }
-  return average.get();
-}
-
 /// What a pixel decides by that should be decided by others.
 enum class Peek { kNone, kOwnProbe, kOwnPilot };
 
@@ -102,18 +90,7 @@ Estimate by_two_stages(const Sampler& sampler, const AdaptiveParams& params, int
   return average.get();
 }
 
-TEST(AdaptiveSeedRule, IsBiasedAsPredicted) {
-  // What the design note found for a tolerance of 0.05, batches of 16 and at most 8192 samples.
-  EXPECT_NEAR(by_seed_rule(even, 0, 2000).mean, 1, 2e-3);
-  EXPECT_NEAR(by_seed_rule(exponential, 0, 2000).mean, 1, 2e-3);
-  const Estimate spikes = by_seed_rule(spiky, 0, 4000);
-  EXPECT_NEAR(spikes.mean, 0.270, 4 * spikes.error);
-  EXPECT_NEAR(by_seed_rule(fireflies, 0, 20000).mean, 0.509, 0.004);
-  EXPECT_NEAR(by_seed_rule(fireflies, 128, 6000).mean, 1 - 0.43, 0.02)
-      << "a larger first batch does not help";
-}
-
-TEST(AdaptiveTwoStage, IsUnbiasedWhereTheSeedRuleIsNot) {
+TEST(AdaptiveTwoStage, IsUnbiased) {
   for (NoiseGoal goal : {NoiseGoal::kFrame, NoiseGoal::kPixel}) {
     AdaptiveParams params;
     params.goal = goal;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of rooms in docs/ARCHITECTURE.md, and what of a source tree breaks it."""
+"""The table of modules in docs/ARCHITECTURE.md, and what of a source tree breaks it."""
 import pathlib
 import re
 from dataclasses import dataclass, field
@@ -32,11 +32,11 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 @dataclass
-class Room:
+class Module:
     name: str
     level: int
     may_include: set = field(default_factory=set)
-    libraries: dict = field(default_factory=dict)  # name -> folder, the room itself or one below it
+    libraries: dict = field(default_factory=dict)  # name -> folder, the module itself or one below it
 
 
 def table_rows(text, heading):
@@ -51,66 +51,73 @@ def table_rows(text, heading):
     return rows
 
 
-def read_rooms(text):
-    rooms = {}
-    for level, folder, _, may_include, libraries in table_rows(text, "## Rooms"):
-        room = Room(re.fullmatch(r"`([a-z]+)/`", folder).group(1), int(level))
-        room.may_include = may_include.split() if may_include not in ("–", "all") else may_include
+def read_modules(text):
+    modules = {}
+    for level, folder, _, may_include, libraries in table_rows(text, "## Modules"):
+        module = Module(re.fullmatch(r"`([a-z]+(?:/[a-z]+)?)/`", folder).group(1), int(level))
+        module.may_include = may_include.split() if may_include not in ("–", "all") else may_include
         for entry in libraries.split(",") if libraries != "–" else []:
             name, _, below = entry.strip().partition(" in ")
-            room.libraries[name] = f"{room.name}/{below.strip('`/')}" if below else room.name
-        rooms[room.name] = room
-    for room in rooms.values():
-        if room.may_include == "all":
-            room.may_include = rooms.keys() - {room.name}
-        room.may_include = set(room.may_include) - {"–"}
-    return rooms
+            module.libraries[name] = f"{module.name}/{below.strip('`/')}" if below else module.name
+        modules[module.name] = module
+    for module in modules.values():
+        if module.may_include == "all":
+            module.may_include = modules.keys() - {module.name}
+        module.may_include = set(module.may_include) - {"–"}
+    return modules
+
+
+def module_of(path, modules):
+    """Name of the module that a path belongs to; a folder of a module can be a module of its own, with its own level."""
+    folders = path.split("/")[:-1]
+    return next((name for count in range(len(folders), 0, -1) if (name := "/".join(folders[:count])) in modules),
+                path.split("/")[0])
 
 
 def read_shared_libraries(text):
-    """Libraries of several rooms -> the rooms that may include them."""
-    rooms = read_rooms(text).keys()
-    return {name: set(rooms if where == "all" else where.split())
+    """Libraries of several modules -> the modules that may include them."""
+    modules = read_modules(text).keys()
+    return {name: set(modules if where == "all" else where.split())
             for name, where in table_rows(text, "### Shared libraries")}
 
 
-def read_walls(text):
-    """Folder of a room -> the folders of the same room that it may include; in the order of the table."""
-    if "### Inner walls" not in text:
+def read_inner_layers(text):
+    """Folder of a module -> the folders of the same module that it may include; in the order of the table."""
+    if "### Inner layers" not in text:
         return {}
     return {re.fullmatch(r"`([a-z]+/[a-z]+)/`", folder).group(1): may_include.split() if may_include != "–" else []
-            for folder, _, may_include in table_rows(text, "### Inner walls")}
+            for folder, _, may_include in table_rows(text, "### Inner layers")}
 
 
-def wall_violations(root, text):
-    """One line for each include between two folders of a room that the table of inner walls does not allow."""
-    walls = read_walls(text)
-    order = list(walls)
+def inner_violations(root, text):
+    """One line for each include between two folders of a module that the table of inner layers does not allow."""
+    layers, modules = read_inner_layers(text), read_modules(text)
+    order = list(layers)
     found = []
-    for folder, may_include in walls.items():
-        room = folder.split("/")[0]
+    for folder, may_include in layers.items():
+        module = folder.split("/")[0]
         for other in may_include:
-            if f"{room}/{other}" not in order[:order.index(folder)]:
+            if f"{module}/{other}" not in order[:order.index(folder)]:
                 found.append(f"the table lets {folder} include {other}, which is no folder above it")
-    walled_rooms = {folder.split("/")[0] for folder in walls}
-    for room in sorted(walled_rooms):
-        for path in sorted((root / room).rglob("*")):
+    layered_modules = {folder.split("/")[0] for folder in layers}
+    for module in sorted(layered_modules):
+        for path in sorted((root / module).rglob("*")):
             if path.suffix not in (".h", ".cpp", ".inl"):
                 continue
             inside = path.relative_to(root).as_posix()
             own = "/".join(inside.split("/")[:2])
-            if inside.count("/") == 1:  # in the room itself
+            if inside.count("/") == 1 or module_of(inside, modules) != module:  # in the module itself, or in another
                 continue
-            if own not in walls:
-                found.append(f"{inside}: {own} is not in the table of inner walls")
+            if own not in layers:
+                found.append(f"{inside}: {own} is not in the table of inner layers")
                 continue
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
-                if not match or match.group(1) != '"' or not match.group(2).startswith(room + "/"):
+                if not match or match.group(1) != '"' or not match.group(2).startswith(module + "/"):
                     continue
                 parts = match.group(2).split("/")
                 other = parts[1] if len(parts) > 2 else "."
-                if f"{room}/{other}" != own and other not in walls[own]:
+                if f"{module}/{other}" != own and other not in layers[own]:
                     found.append(f"{inside}:{number}: {own} may not include {match.group(2)}")
     return found
 
@@ -121,38 +128,40 @@ def library_of(header):
 
 def violations(root, text):
     """One line for each include below `root` that the tables in `text` do not allow."""
-    rooms, shared = read_rooms(text), read_shared_libraries(text)
-    owners = {name: folder for room in rooms.values() for name, folder in room.libraries.items()}
+    modules, shared = read_modules(text), read_shared_libraries(text)
+    owners = {name: folder for module in modules.values() for name, folder in module.libraries.items()}
     found = [f"the tables name {name}, which LIBRARY_HEADERS does not know"
              for name in owners.keys() | shared.keys() if name not in LIBRARY_HEADERS]
-    found += [f"the table lets {room.name} include {other}, which is no room below it"
-              for room in rooms.values() for other in sorted(room.may_include)
-              if other not in rooms or rooms[other].level >= room.level]
+    found += [f"the table lets {module.name} include {other}, which is no module below it"
+              for module in modules.values() for other in sorted(module.may_include)
+              if other not in modules or modules[other].level >= module.level]
 
-    for room in rooms.values():
-        for path in sorted((root / room.name).rglob("*")):
+    for module in modules.values():
+        for path in sorted((root / module.name).rglob("*")):
             if path.suffix not in (".h", ".cpp", ".inl"):
                 continue
             inside = path.relative_to(root).as_posix()
+            if module_of(inside, modules) != module.name:
+                continue
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
                 if not match:
                     continue
                 quoted, header = match.group(1) == '"', match.group(2)
                 if quoted:
-                    other = header.split("/")[0]
-                    allowed = "/" in header and (other == room.name or other in room.may_include)
+                    other = module_of(header, modules)
+                    allowed = "/" in header and (other == module.name or other in module.may_include)
                 else:
                     library = library_of(header)
                     if library is None:
                         allowed = SYSTEM_HEADER.match(header)
                     elif library in shared:
-                        allowed = room.name in shared[library]
+                        allowed = module.name in shared[library]
                     else:
                         allowed = inside.startswith(owners.get(library, "nowhere") + "/")
                 if not allowed:
-                    found.append(f"{inside}:{number}: {room.name} may not include {header}")
-    return found + wall_violations(root, text)
+                    found.append(f"{inside}:{number}: {module.name} may not include {header}")
+    return found + inner_violations(root, text)
 
 
 def source_root():
