@@ -32,7 +32,7 @@ bool has_room(const MemoryLedger& ledger, int64_t bytes) {
   return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
 }
 
-void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view what) {
+void require_memory(const MemoryLedger& ledger, int64_t bytes, std::string_view what) {
   if (has_room(ledger, bytes)) return;
   const int64_t needed = ledger.budgeted() + bytes;
   throw Error(
@@ -42,7 +42,7 @@ void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view wh
 }
 
 MemoryCharge reserve(MemoryLedger& ledger, MemoryTag tag, int64_t bytes, std::string_view what) {
-  require_room(ledger, bytes, what);
+  require_memory(ledger, bytes, what);
   return {ledger, tag, bytes};
 }
 

@@ -23,9 +23,9 @@ bool has_room(const MemoryLedger& ledger, int64_t bytes);
 /// that needs the memory and its location in the scene ("groom 'coat': the follicles of 5,000,000 strands").
 /// The message adds the size, the memory in use, and the --memory (in MiB) that suffices for this object.
 /// Later steps may need more.
-void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view what);
+void require_memory(const MemoryLedger& ledger, int64_t bytes, std::string_view what);
 
-/// Calls require_room(), then charges the bytes.
+/// Calls require_memory(), then charges the bytes.
 MemoryCharge reserve(MemoryLedger& ledger, MemoryTag tag, int64_t bytes, std::string_view what);
 
 }  // namespace pelage

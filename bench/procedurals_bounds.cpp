@@ -12,7 +12,7 @@
 #include "geom/curve_bounds.h"
 #include "groom/groom.h"
 #include "image/texture_library.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
 #include "tests/support/quiet_job.h"

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/yardstick.h"
-#include "procedurals/rib/rib_curves.h"
+#include "rib/syntax/rib_curves.h"
 #include "tests/geom/random_strands.h"
 
 namespace pelage {

@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "bench/yardstick.h"
-#include "procedurals/rib/rib_reading.h"
+#include "rib/scene/rib_reading.h"
 
 namespace pelage {
 namespace {

@@ -16,7 +16,7 @@
 #include "base/progress.h"
 #include "bench/ball_chunks.h"
 #include "bench/yardstick.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"

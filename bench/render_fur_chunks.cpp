@@ -13,7 +13,7 @@
 #include "bench/ball_chunks.h"
 #include "bench/furball.h"
 #include "bench/interleaved.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/flush_denormals.h"
 

@@ -13,7 +13,7 @@
 #include "base/module.h"
 #include "base/temporary_folder.h"
 #include "bench/yardstick.h"
-#include "renderman/hair_session.h"
+#include "rib/host/hair_session.h"
 #include "tests/support/allocation_meter.h"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "procedurals/bounding.h"
+#include "procedurals/bounds/bounding.h"
 #include "render/frame/frame_chunks.h"
 #include "world/compose.h"
 

@@ -17,7 +17,7 @@
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
-#include "groom/cache_report.h"
+#include "groom/cache/cache_report.h"
 #include "world/compose.h"
 
 namespace pelage {

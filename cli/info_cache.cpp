@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/info.h"
-#include "groom/frozen_leaf.h"
+#include "groom/cache/frozen_leaf.h"
 
 namespace pelage {
 namespace {

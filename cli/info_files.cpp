@@ -8,7 +8,7 @@
 
 #include "base/value_readers.h"
 #include "cli/info.h"
-#include "groom/curve_basis_names.h"
+#include "groom/strands/curve_basis_names.h"
 
 namespace pelage {
 namespace {

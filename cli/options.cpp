@@ -15,7 +15,7 @@
 #include "cli/number_checks.h"
 #include "cli/post_flags.h"
 #include "cli/rib_flags.h"
-#include "groom/curve_basis_names.h"
+#include "groom/strands/curve_basis_names.h"
 
 namespace pelage {
 namespace {

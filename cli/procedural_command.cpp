@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/commands.h"
-#include "renderman/program_replies.h"
+#include "rib/host/program_replies.h"
 
 namespace pelage {
 namespace {

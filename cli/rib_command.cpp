@@ -7,7 +7,7 @@
 #include "cli/output_files.h"
 #include "cli/read_scene.h"
 #include "cli/run.h"
-#include "renderman/scene_rib.h"
+#include "rib/host/scene_rib.h"
 
 namespace pelage {
 namespace {

@@ -5,7 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "procedurals/rib/rib_programs.h"
+#include "rib/scene/rib_programs.h"
 
 namespace pelage {
 

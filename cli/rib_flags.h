@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "world/rib_use.h"
+#include "rib/document/rib_use.h"
 
 namespace CLI {
 class App;

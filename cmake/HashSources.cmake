@@ -14,7 +14,7 @@ endforeach()
 string(SHA256 hash "${all}")
 string(SUBSTRING ${hash} 0 32 hash)
 file(WRITE ${OUT} "// Made by cmake/HashSources.cmake.
-#include \"groom/growth_identity.h\"
+#include \"groom/cache/growth_identity.h\"
 
 namespace pelage {
 

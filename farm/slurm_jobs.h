@@ -14,7 +14,7 @@ struct SlurmParams {
   std::string folder;                          ///< of the shot: scripts, logs, state; an absolute path
   uint64_t render_bytes = 0;                   ///< memory to reserve for a task that reads the scene
   uint64_t merge_bytes = uint64_t{512} << 20;  ///< memory to reserve for a merge
-  int retries = 9;                             ///< how often a task that was stopped or killed is queued again
+  int retries = 9;  ///< how often a task that was stopped or killed is queued again
   /// Seconds before the time limit at which Slurm signals a task to write its checkpoint.
   int warning_s = 60;
   std::vector<std::string> options;  ///< for each call of sbatch: --partition=P, --time=60 ...

@@ -9,7 +9,7 @@
 #include "base/job.h"
 #include "base/memory_budget.h"
 #include "groom/groom_impl.h"
-#include "groom/width.h"
+#include "groom/operators/width.h"
 
 namespace pelage {
 
@@ -90,8 +90,8 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
   constexpr int64_t kBytesOfPoint = 256;  // of a strand that is alone in its part, with its tree
   const int64_t block = StrandBatch::bytes(points, colored);
   if (has_room(ledger, block)) return;
-  require_room(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
-               fmt::format("growing strands with {} points for {}", points, owner));
+  require_memory(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
+                 fmt::format("growing strands with {} points for {}", points, owner));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 #include "geom/limit_surface.h"
 #include "geom/strand_counts.h"
 #include "geom/strands.h"
-#include "groom/follicles.h"
-#include "groom/groom_params.h"
+#include "groom/coat/groom_params.h"
+#include "groom/follicles/follicles.h"
 
 namespace pelage {
 
@@ -51,9 +51,9 @@ struct KeptStrands {
 /// operators after it, run on the posed strands of every motion key.
 ///
 /// With `cache:`, the result of all operators up to the one named by `freeze` is quantised
-/// (groom/frozen_leaf.h) and stored in files. Strands are then always grown from the quantised data, whether
-/// it was just computed or read from a file. Every strand is a pure function of the groom, the strand's id
-/// and the pose (law 1).
+/// (groom/cache/frozen_leaf.h) and stored in files. Strands are then always grown from the quantised data,
+/// whether it was just computed or read from a file. Every strand is a pure function of the groom, the
+/// strand's id and the pose (law 1).
 ///
 /// Strands of a file grow in the same way. Their points are the state before the first operator, their ids
 /// are their order in the file, and their roots are the nearest points of the rest skin.
@@ -82,7 +82,8 @@ class Groom {
   const ContentHash& content_hash() const;
   /// Store for data that is derived from the groom. Null for a groom without a cache.
   const ContentStore* store() const;
-  /// State of the cache when the groom was made (groom/cache_report.h). Null for a groom without a cache.
+  /// State of the cache when the groom was made (groom/cache/cache_report.h). Null for a groom without a
+  /// cache.
   const GroomCacheReport* cache_report() const;
   /// Counts of the repairs made to the strands of the file; zeros for a groom without a file.
   StrandRepairs repairs() const;

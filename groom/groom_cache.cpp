@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "base/job.h"
+#include "groom/cache/stored_follicles.h"
 #include "groom/groom_impl.h"
-#include "groom/stored_follicles.h"
 
 namespace pelage {
 namespace {

@@ -7,8 +7,8 @@
 #include "base/check.h"
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "groom/coat/strand_writer.h"
 #include "groom/groom_impl.h"
-#include "groom/strand_writer.h"
 
 namespace pelage {
 
@@ -72,8 +72,8 @@ void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
   needs_rest_frames = !source.rest || use == RestUse::kFrames ||
                       !stack->traits(frozen_end, std::max(frozen_end, stack->first_live())).attributes_only;
   if (needs_rest_frames || use == RestUse::kNone) return;
-  require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
-               "placing the strands of groom '" + name + "' at rest");
+  require_memory(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
+                 "placing the strands of groom '" + name + "' at rest");
   rest_positions.resize(source.follicles().size());
   job.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end; ++f) {

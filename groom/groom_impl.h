@@ -4,12 +4,12 @@
 #include <memory>
 #include <optional>
 
-#include "groom/cache_report.h"
-#include "groom/frozen_coat.h"
+#include "groom/cache/cache_report.h"
+#include "groom/cache/frozen_coat.h"
+#include "groom/cache/groom_identity.h"
+#include "groom/coat/strand_writer.h"
 #include "groom/groom.h"
-#include "groom/groom_identity.h"
-#include "groom/operator_stack.h"
-#include "groom/strand_writer.h"
+#include "groom/operators/operator_stack.h"
 
 namespace pelage {
 

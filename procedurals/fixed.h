@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "geom/curve_bounds.h"
-#include "procedurals/deferred_skin.h"
-#include "procedurals/procedural.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/procedural.h"
+#include "procedurals/bounds/segment_parts.h"
+#include "procedurals/skin/deferred_skin.h"
 
 namespace pelage {
 

@@ -5,7 +5,7 @@
 
 #include "base/program_identity.h"
 #include "geom/strand_merge.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "procedurals/thinned_fur.h"
 
 namespace pelage {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "procedurals/coat_detail.h"
-#include "procedurals/posed_character_skin.h"
-#include "procedurals/procedural.h"
+#include "procedurals/bounds/procedural.h"
+#include "procedurals/detail/coat_detail.h"
+#include "procedurals/skin/posed_character_skin.h"
 
 namespace pelage {
 

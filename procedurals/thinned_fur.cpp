@@ -6,7 +6,7 @@
 #include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "lod/fewer_points.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 
 namespace pelage {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "procedurals/coat_detail.h"
-#include "procedurals/procedural.h"
+#include "procedurals/bounds/procedural.h"
+#include "procedurals/detail/coat_detail.h"
 
 namespace pelage {
 

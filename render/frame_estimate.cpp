@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/process_usage.h"
 #include "image/exr_writing.h"
-#include "procedurals/bounds_file.h"
+#include "procedurals/bounds/bounds_file.h"
 #include "render/accel/resident_chunks.h"
 #include "render/film/film.h"
 #include "render/frame/frame_chunks.h"
@@ -110,7 +110,7 @@ void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Jo
     else
       unknown += n.segments;
   }
-  constexpr double kFineBytes = 0.25;  // per segment: FineBoxes
+  constexpr double kFineBytes = 0.25;  // per segment: SegmentCellBounds
   estimate.box_bytes += static_cast<int64_t>(kFineBytes * static_cast<double>(segments));
   estimate.measuring_bytes = static_cast<int64_t>(block) * job.workers.thread_count();
   estimate.measuring_cpu_s = fur.cpu_s * static_cast<double>(unknown) / std::max(1.0, double(segments));

@@ -131,7 +131,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   const FrameWindow window =
       frame_window(scene.image.width, scene.image.height, options.region, layers.splat);
   const int width = window.film.width(), height = window.film.height();
-  require_room(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
+  require_memory(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
   const bool gathers = scene.render.integrator == Integrator::kGather;
   FrameResult result{Film(width, height, layers, job.ledger), window};
   GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};

@@ -44,7 +44,7 @@ class LiveRenderer::Watch final : public FrameWatch {
   Watch(LiveRenderer& renderer, const SceneEdit& edit) : renderer_(renderer), edit_(edit) {}
 
   void passed(const Film& film, const PassState& state) override {
-    ViewDesk& desk = renderer_.desk_;
+    ViewState& desk = renderer_.desk_;
     std::vector<std::string> names;
     Picture picture;
     picture.width = film.width();
@@ -74,7 +74,7 @@ class LiveRenderer::Watch final : public FrameWatch {
   const SceneEdit& edit_;
 };
 
-LiveRenderer::LiveRenderer(ViewDesk& desk, int threads)
+LiveRenderer::LiveRenderer(ViewState& desk, int threads)
     : desk_(desk),
       workers_(threads),
       progress_(desk, ledger_, [this] { return must_end() || preview_is_over_; }),

@@ -12,19 +12,19 @@
 #include "render/frame/frame_result.h"
 #include "view/scene_edit.h"
 #include "view/stage_progress.h"
-#include "view/view_desk.h"
+#include "view/view_state.h"
 
 namespace pelage {
 
 class FrameWatch;
 
-/// Renders the last edit of a scene on a thread of its own, and publishes its pictures on a ViewDesk. Keeps
+/// Renders the last edit of a scene on a thread of its own, and publishes its pictures on a ViewState. Keeps
 /// the world and its geometry between edits, and makes only those parts again that depend on the change. An
 /// edit ends the render of the edit before it. Thread safety: all members may be called from any thread.
 class LiveRenderer {
  public:
   /// `threads`: as in Workers. The desk must outlive the renderer.
-  LiveRenderer(ViewDesk& desk, int threads);
+  LiveRenderer(ViewState& desk, int threads);
   /// Ends the render and frees the finished frame on the desk.
   ~LiveRenderer();
   LiveRenderer(const LiveRenderer&) = delete;
@@ -53,7 +53,7 @@ class LiveRenderer {
   int64_t strands_regrown() const;
   bool must_end() const { return stopped_ || waiting_; }
 
-  ViewDesk& desk_;
+  ViewState& desk_;
   MemoryLedger ledger_;
   Workers workers_;
   std::atomic<bool> waiting_{false};  // next_ is not null

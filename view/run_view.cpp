@@ -12,7 +12,7 @@ namespace pelage {
 
 void run_live_view(const ViewOptions& options, const std::function<void(const std::string&)>& ready,
                    const std::function<bool()>& stopped) {
-  ViewDesk desk;
+  ViewState desk;
   const bool is_local = options.address == ViewOptions{}.address;
   const SceneCommands commands(options.scene, options.overrides, desk, is_local);
   const ViewServer server(desk, commands, options.address, options.port);

@@ -28,7 +28,7 @@ constexpr double kMaxPixel = 65536;  // as image.width
 struct Context {
   const std::filesystem::path& scene;
   const std::vector<Override>& overrides;
-  ViewDesk& desk;
+  ViewState& desk;
   bool may_write;
 };
 

@@ -8,7 +8,7 @@
 
 #include "scene/document.h"
 #include "view/command_answer.h"
-#include "view/view_desk.h"
+#include "view/view_state.h"
 
 namespace pelage {
 
@@ -17,7 +17,7 @@ namespace pelage {
 class SceneCommands {
  public:
   /// `may_write`: whether clients may change the scene file.
-  SceneCommands(std::filesystem::path scene, std::vector<Override> overrides, ViewDesk& desk,
+  SceneCommands(std::filesystem::path scene, std::vector<Override> overrides, ViewState& desk,
                 bool may_write = true)
       : scene_(std::move(scene)), overrides_(std::move(overrides)), desk_(desk), may_write_(may_write) {}
 
@@ -29,7 +29,7 @@ class SceneCommands {
  private:
   const std::filesystem::path scene_;
   const std::vector<Override> overrides_;
-  ViewDesk& desk_;
+  ViewState& desk_;
   const bool may_write_;
 };
 

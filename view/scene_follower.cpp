@@ -33,7 +33,7 @@ ViewCamera camera_of(const SceneDescription& scene, bool moved) {
 }  // namespace
 
 SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> overrides,
-                             LiveRenderer& renderer, ViewDesk& desk)
+                             LiveRenderer& renderer, ViewState& desk)
     : path_(std::move(scene)), overrides_(std::move(overrides)), renderer_(renderer), desk_(desk) {
   files_ = {path_};
   last_ = read();

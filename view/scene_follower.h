@@ -21,7 +21,7 @@ class SceneFollower {
  public:
   /// Reads the scene and submits it. Throws the errors of load_scene().
   SceneFollower(std::filesystem::path scene, std::vector<Override> overrides, LiveRenderer& renderer,
-                ViewDesk& desk);
+                ViewState& desk);
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -36,7 +36,7 @@ class SceneFollower {
   const std::filesystem::path path_;
   const std::vector<Override> overrides_;
   LiveRenderer& renderer_;
-  ViewDesk& desk_;
+  ViewState& desk_;
   FileWatch watch_;
   std::vector<std::filesystem::path> files_;
   FileStamps stamps_;                      // of files_, when they were read last

@@ -12,7 +12,7 @@ constexpr size_t kMaxWarnings = 20;
 
 }  // namespace
 
-StageProgress::StageProgress(ViewDesk& desk, const MemoryLedger& ledger, std::function<bool()> must_end)
+StageProgress::StageProgress(ViewState& desk, const MemoryLedger& ledger, std::function<bool()> must_end)
     : desk_(desk), ledger_(ledger), must_end_(std::move(must_end)) {}
 
 double StageProgress::Stage::fraction() const { return total > 0 ? std::min(done / total, 1.0) : 0; }

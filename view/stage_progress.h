@@ -9,17 +9,17 @@
 
 #include "base/ledger.h"
 #include "base/progress.h"
-#include "view/view_desk.h"
+#include "view/view_state.h"
 
 namespace pelage {
 
-/// Shows on a ViewDesk which stage the work is in, how far the stage is, and how much memory is in use. Also
+/// Shows on a ViewState which stage the work is in, how far the stage is, and how much memory is in use. Also
 /// shows the last few warnings. Thread safety: all members may be called from any thread.
 class StageProgress final : public Progress {
  public:
   /// `must_end`: whether the work is cancelled; called from any thread. The desk and the ledger must outlive
   /// this object.
-  StageProgress(ViewDesk& desk, const MemoryLedger& ledger, std::function<bool()> must_end);
+  StageProgress(ViewState& desk, const MemoryLedger& ledger, std::function<bool()> must_end);
 
   /// Forgets all stages, for work that begins anew.
   void reset();
@@ -39,7 +39,7 @@ class StageProgress final : public Progress {
   };
   void show();
 
-  ViewDesk& desk_;
+  ViewState& desk_;
   const MemoryLedger& ledger_;
   const std::function<bool()> must_end_;
   std::mutex mutex_;

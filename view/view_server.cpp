@@ -82,8 +82,8 @@ void end_connections(int port) {
 }  // namespace
 
 struct ViewServer::State {
-  State(ViewDesk& view_desk, const SceneCommands& scene_commands, RequestRules request_rules)
-      : desk(view_desk), commands(scene_commands), rules(std::move(request_rules)) {}
+  State(ViewState& view_state, const SceneCommands& scene_commands, RequestRules request_rules)
+      : desk(view_state), commands(scene_commands), rules(std::move(request_rules)) {}
 
   /// Answers a request whose body has not been read. Returns false for a command, whose body is to be read.
   bool answer(const httplib::Request& request, httplib::Response& response);
@@ -98,7 +98,7 @@ struct ViewServer::State {
   void send_exr(httplib::Response& response);
   void send_why(const httplib::Request& request, httplib::Response& response);
 
-  ViewDesk& desk;
+  ViewState& desk;
   const SceneCommands& commands;
   RequestRules rules;
   int port = 0;
@@ -217,7 +217,7 @@ void ViewServer::State::send_why(const httplib::Request& request, httplib::Respo
   send(std::move(answer.json), "application/json", response);
 }
 
-ViewServer::ViewServer(ViewDesk& desk, const SceneCommands& commands, const std::string& address, int port) {
+ViewServer::ViewServer(ViewState& desk, const SceneCommands& commands, const std::string& address, int port) {
   auto server = std::make_unique<State>(desk, commands, RequestRules(address, port, ""));
   httplib::Server& http = server->server;
   // Without SO_REUSEPORT, which the library sets by itself: two servers would share the port.

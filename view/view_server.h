@@ -6,18 +6,18 @@
 
 #include "view/requests.h"
 #include "view/scene_commands.h"
-#include "view/view_desk.h"
+#include "view/view_state.h"
 
 namespace pelage {
 
 /// The web server of `pelage view`. It answers requests for the files of the page, state.json, picture.exr
-/// and layer.bin?name=LAYER, and reads no other files. Its threads only read what a ViewDesk holds, and pass
+/// and layer.bin?name=LAYER, and reads no other files. Its threads only read what a ViewState holds, and pass
 /// commands on.
 class ViewServer {
  public:
   /// Begins to answer at an address. `port`: 0 chooses a free one. The desk and the
   /// commands must outlive the server. Throws Error (kFailed) when the address or the port cannot be used.
-  ViewServer(ViewDesk& desk, const SceneCommands& commands, const std::string& address, int port);
+  ViewServer(ViewState& desk, const SceneCommands& commands, const std::string& address, int port);
   /// Ends all requests within a second, also those of clients that do not read or write.
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;

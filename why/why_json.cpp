@@ -70,9 +70,12 @@ json strand_json(const StrandWhy& strand) {
 }
 
 json chunk_json(const ChunkWhy& chunk) {
-  return {{"index", chunk.index},           {"strands", chunk.strands},
-          {"bytes", chunk.bytes},           {"box", {list(chunk.box.min), list(chunk.box.max)}},
-          {"fine_boxes", chunk.fine_boxes}, {"growths", chunk.growths}};
+  return {{"index", chunk.index},
+          {"strands", chunk.strands},
+          {"bytes", chunk.bytes},
+          {"box", {list(chunk.box.min), list(chunk.box.max)}},
+          {"segment_cell_bounds", chunk.segment_cell_bounds},
+          {"growths", chunk.growths}};
 }
 
 json material_json(const MaterialWhy& material) {

@@ -103,8 +103,8 @@ std::string chunk_text(const ChunkWhy& chunk) {
                                                 : fmt::format("grown {} times", chunk.growths);
   return fmt::format("chunk {}: {}, {:.1f} KiB, {} fine boxes, {}\n  box {} to {}\n", chunk.index,
                      counted(static_cast<int64_t>(chunk.strands), "strand"),
-                     static_cast<double>(chunk.bytes) / 1024, chunk.fine_boxes, grew, text_of(chunk.box.min),
-                     text_of(chunk.box.max));
+                     static_cast<double>(chunk.bytes) / 1024, chunk.segment_cell_bounds, grew,
+                     text_of(chunk.box.min), text_of(chunk.box.max));
 }
 
 std::string light_text(const PixelWhy& why) {

@@ -7,8 +7,8 @@
 
 #include "base/nearest_name.h"
 #include "procedurals/fur.h"
-#include "procedurals/placed_procedural.h"
 #include "procedurals/thinned_fur.h"
+#include "rib/scene/placed_procedural.h"
 
 namespace pelage {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/job.h"
-#include "procedurals/rib/rib_batches.h"
-#include "procedurals/rib/rib_scene.h"
 #include "render/scene/render_scene.h"
+#include "rib/scene/rib_batches.h"
+#include "rib/scene/rib_scene.h"
 #include "world/frame_coats.h"
 #include "world/hair_arguments.h"
 

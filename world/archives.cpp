@@ -9,9 +9,9 @@
 
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
-#include "procedurals/pose_cache.h"
-#include "procedurals/posed_character_skin.h"
-#include "procedurals/rib/rib_reading.h"
+#include "procedurals/skin/pose_cache.h"
+#include "procedurals/skin/posed_character_skin.h"
+#include "rib/scene/rib_reading.h"
 #include "world/archive_coats.h"
 #include "world/character_transform.h"
 #include "world/compose.h"
@@ -149,7 +149,7 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
   options.mirror_left_handed = scene.from_rib;
   options.programs = scene.programs;
   options.max_request_bytes = std::numeric_limits<size_t>::max();  // `reserve` knows the limit
-  options.reserve = [&](size_t bytes) { require_room(job.ledger, static_cast<int64_t>(bytes), what); };
+  options.reserve = [&](size_t bytes) { require_memory(job.ledger, static_cast<int64_t>(bytes), what); };
   options.check_stop = [&] { job.check_stop(); };
   auto rib = std::make_shared<RibScene>(read_rib(params.rib.path, options));
   // The others are known since the scene was loaded.
@@ -163,7 +163,7 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
         SurfaceTopology::create(skin.cage, skin.scheme, skin.boundary, to_string(skin.position), job);
     archive.surfaces.push_back(std::make_shared<const LimitSurface>(topology, skin.cage.positions));
     bytes += topology->bytes() + archive.surfaces.back()->bytes();
-    require_room(job.ledger, static_cast<int64_t>(bytes), what);
+    require_memory(job.ledger, static_cast<int64_t>(bytes), what);
   }
   archive.charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
   if (!rib->own_procedurals.empty())

@@ -9,7 +9,7 @@
 #include "base/job.h"
 #include "base/ledger.h"
 #include "geom/limit_surface.h"
-#include "procedurals/rib/rib_scene.h"
+#include "rib/scene/rib_scene.h"
 #include "world/scene_schema.h"
 
 namespace pelage {

@@ -9,9 +9,9 @@
 #include "world/asset_files.h"
 #include "world/asset_keys.h"
 #include "world/crowds.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 #include "world/map_check.h"
-#include "world/skin_room.h"
+#include "world/skin_memory_check.h"
 
 namespace pelage {
 
@@ -62,12 +62,12 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
 }
 
 /// If the strands of the scene cannot fit the memory limit, fails before the first is placed.
-void require_room_for_strands(const SceneDescription& scene, const Assets& assets, const Job& job) {
+void require_memory_for_strands(const SceneDescription& scene, const Assets& assets, const Job& job) {
   int64_t kept = 0;
   for (const auto& [name, position, params] : scene.grooms.items) {
     if (!params.strands || params.cache || assets.groom_keys.contains(name)) continue;
-    require_room(job.ledger, kept + follicle_temporary_bytes(*params.strands),
-                 fmt::format("placing {} strands of groom '{}'", *params.strands, name));
+    require_memory(job.ledger, kept + follicle_temporary_bytes(*params.strands),
+                   fmt::format("placing {} strands of groom '{}'", *params.strands, name));
     kept += follicle_bytes(*params.strands);
   }
 }
@@ -105,7 +105,7 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
 std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
   std::vector<int64_t> bytes;
   for (const auto& [name, position, params] : scene.characters.items)
-    bytes.push_back(drawn_character_bytes(scene, assets, name, params));
+    bytes.push_back(frame_character_bytes(scene, assets, name, params));
   return bytes;
 }
 
@@ -181,7 +181,7 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   assets.part_poses.clear();
   assets.materials.clear();
   const std::map<std::string, ContentHash> keys = drop_old(scene, assets);
-  require_room_for_strands(scene, assets, job);
+  require_memory_for_strands(scene, assets, job);
   update_skins(scene, keys, job, assets);
   check_maps(scene, assets.skins);
   for (const auto& [name, position, params] : scene.characters.items) {

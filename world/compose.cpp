@@ -9,10 +9,10 @@
 
 #include "base/instruction_set.h"
 #include "base/version.h"
-#include "procedurals/detail_policy.h"
+#include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"
 #include "world/archives.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 
@@ -38,7 +38,7 @@ class Composer {
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
-    const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
+    const std::vector<FrameCharacter> drawn = frame_characters(scene_, assets_);
     const std::vector<bool> full_detail =
         full_detail_characters(drawn, scene_.render.lod.full_detail, lod_view_.open.position, frame_);
     for (size_t i = 0; i < drawn.size(); ++i) {
@@ -54,7 +54,7 @@ class Composer {
     return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
   }
 
-  void add(const DrawnCharacter& character, bool reduced) {
+  void add(const FrameCharacter& character, bool reduced) {
     Box3f box;
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, box);
@@ -63,7 +63,7 @@ class Composer {
     if (world_.scene.camera.may_see(box)) ++world_.counts.characters_in_frame;
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, bool reduced, Box3f& box) {
+  void add_part(const FrameCharacter& character, size_t index, bool reduced, Box3f& box) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);

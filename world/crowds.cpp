@@ -42,8 +42,8 @@ std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
   for (const auto& [name, position, params] : scene.crowds.items) {
     in_frame += bytes_in_frame(scene, params, drawn_bytes);
     const int64_t making = crowd_temporary_bytes(params, footprints_of(scene, params), placed);
-    require_room(job.ledger, std::max(making, in_frame),
-                 fmt::format("crowd '{}' with {} animals", name, params.count));
+    require_memory(job.ledger, std::max(making, in_frame),
+                   fmt::format("crowd '{}' with {} animals", name, params.count));
     placed += static_cast<size_t>(params.count);
   }
   std::vector<std::vector<CrowdMember>> crowds;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "procedurals/detail_policy.h"
-#include "world/drawn_characters.h"
+#include "procedurals/detail/detail_policy.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
@@ -22,7 +22,7 @@ class FramePoser {
 
   const V3f& eye() const { return lod_view_.open.position; }
 
-  void add(const DrawnCharacter& character, bool reduced, FrameParts& parts) {
+  void add(const FrameCharacter& character, bool reduced, FrameParts& parts) {
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, parts);
   }
@@ -34,7 +34,7 @@ class FramePoser {
                : camera_.lod_view();
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, bool reduced, FrameParts& parts) {
+  void add_part(const FrameCharacter& character, size_t index, bool reduced, FrameParts& parts) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
@@ -95,7 +95,7 @@ Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, 
 
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
                       const std::set<std::string>& only) {
-  const std::vector<DrawnCharacter> drawn = drawn_characters(scene, assets);
+  const std::vector<FrameCharacter> drawn = frame_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
   const std::vector<bool> full =
       full_detail_characters(drawn, scene.render.lod.full_detail, poser.eye(), frame);

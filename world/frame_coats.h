@@ -10,8 +10,8 @@
 #include "base/job.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
-#include "procedurals/coat_direction.h"
-#include "procedurals/posed_character_skin.h"
+#include "procedurals/detail/coat_direction.h"
+#include "procedurals/skin/posed_character_skin.h"
 #include "world/assets.h"
 #include "world/scene_schema.h"
 

@@ -9,12 +9,12 @@
 
 #include "base/nearest_name.h"
 #include "image/exr_file.h"
+#include "rib/document/rib_document.h"
 #include "scene/document_hash.h"
 #include "scene/overrides.h"
 #include "scene/renamed_keys.h"
 #include "world/asset_files.h"
 #include "world/leaf_sizes.h"
-#include "world/rib_document.h"
 #include "world/scene_schema.h"
 
 namespace pelage {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "groom/cache_report.h"
-#include "groom/frozen_coat.h"
+#include "groom/cache/cache_report.h"
+#include "groom/cache/frozen_coat.h"
 #include "lab/measure/caches.h"
 
 namespace pelage {

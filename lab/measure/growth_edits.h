@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "groom/groom_params.h"
+#include "groom/coat/groom_params.h"
 #include "lab/report/report.h"
 #include "lab/runs/variant.h"
 

@@ -84,7 +84,7 @@ void add_work(Columns& columns) {
   columns.add_number("rays_near", "near rays", "rays_near");
   columns.add_number("rays_far", "far rays", "rays_far");
   columns.add_number("knots", "knots", "knots");
-  columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
+  columns.add("samples_per_gather_point", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");
     return knots > 0 ? run.outcome.number("knot_samples") / knots : NAN;
   });

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "render/accel/embree_query.h"
-#include "render/accel/fine_box_hits.h"
+#include "render/accel/segment_cell_hits.h"
 
 namespace pelage {
 namespace {
@@ -99,8 +99,8 @@ class ChunkAccel::Visits {
       entry = learned->enter(slabs, until);
     }
     if (resident || !boxes_.has_fine(chunk) || entry == kInfinity) return entry;
-    const FineBoxHits hits =
-        intersect_fine_boxes(boxes_.fine(chunk), slabs, until, any_, counts_.box_tests, boxes_.margin(chunk));
+    const SegmentCellHits hits = intersect_segment_cell_bounds(boxes_.fine(chunk), slabs, until, any_,
+                                                               counts_.box_tests, boxes_.margin(chunk));
     met = hits.boxes;
     return hits.entry;
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/job.h"
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/accel.h"
 #include "render/accel/chunk_grower.h"
 #include "render/accel/chunk_tree.h"

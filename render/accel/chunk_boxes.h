@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/chunk_grower.h"
 #include "render/accel/chunk_tree.h"
 #include "render/accel/part_bounds.h"
@@ -53,7 +53,7 @@ class ChunkBoxes {
 
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
   bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
-  const FineBoxes& fine(uint32_t chunk) const { return known_[chunk].fine; }
+  const SegmentCellBounds& fine(uint32_t chunk) const { return known_[chunk].fine; }
   /// Distance by which a query must enlarge the chunk's fine boxes on every side.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
@@ -81,7 +81,7 @@ class ChunkBoxes {
 
  private:
   struct KnownBounds {
-    FineBoxes fine;
+    SegmentCellBounds fine;
     Box3f given;  // before it was enlarged by the margin; only of chunks in fur trees with a constant box
     float margin = 0;
     bool learns = true;

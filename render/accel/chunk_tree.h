@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/accel.h"
 #include "render/accel/ray_slabs.h"
 

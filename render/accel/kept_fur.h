@@ -10,7 +10,7 @@
 #include "base/hash.h"
 #include "base/ledger.h"
 #include "base/page_pool.h"
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/fur_chunk.h"
 #include "render/accel/part_bounds.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/chunk_grower.h"
 #include "render/accel/ray_slabs.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "geom/four_lanes.h"
-#include "procedurals/fine_boxes.h"
+#include "procedurals/bounds/segment_cell_bounds.h"
 #include "render/accel/accel.h"
 
 namespace pelage {
@@ -88,11 +88,11 @@ class RaySlabs {
 };
 
 /// A ray prepared for the slab test of fine boxes. Their sides are whole numbers of steps from a corner,
-/// which may move (see FineBoxes).
+/// which may move (see SegmentCellBounds).
 class GridSlabs {
  public:
   /// `margin`: distance by which boxes are enlarged on every side.
-  GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid, float margin) : near_(ray.near_) {
+  GridSlabs(const RaySlabs& ray, const SegmentCellBounds::Grid& grid, float margin) : near_(ray.near_) {
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<size_t>(i);
       const RaySlabs::Axis& of = ray.axes_[axis];
@@ -107,7 +107,7 @@ class GridSlabs {
 
   /// Tests four fine boxes as RaySlabs::intersect() tests boxes. The error bound of RaySlabs also covers the
   /// rounding of the corner, because the corner lies in the scene.
-  auto intersect(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
+  auto intersect(const SegmentCellBounds::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
     for (size_t i = 0; i < 3; ++i) {

@@ -10,7 +10,7 @@ namespace pelage {
 
 /// A fibre with a medulla, hit at one h: the lobes of unscattered light, and one lobe of scattered light.
 /// `Scattered` is the model of the lobe of scattered light. It must have density(FibreAngles) and draw(u),
-/// which returns DrawnAngles.
+/// which returns SampledAngles.
 ///
 /// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour.
 template <class Scattered>
@@ -56,7 +56,7 @@ class MedullaBsdf {
 };
 
 /// A sampled direction relative to a fibre: the sine of its inclination, and its azimuth in radians.
-struct DrawnAngles {
+struct SampledAngles {
   float sin_theta;
   float phi;
 };

@@ -58,7 +58,7 @@ class TabulatedScatter {
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);
 
   float density(const FibreAngles& a) const;
-  DrawnAngles draw(const V3f& u) const;
+  SampledAngles draw(const V3f& u) const;
   PathLengths lengths() const;
 
  private:

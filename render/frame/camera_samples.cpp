@@ -19,16 +19,16 @@ SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
 
 CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& stream) const {
   CameraSample result;
-  stream.seek(static_cast<uint32_t>(SampleDraw::kFilm));
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFilm));
   result.offset = place_.offset(stream.next2d());
   V2f lens(0.5f);
   float time = 0;
   if (scene_.camera.has_lens()) {
-    stream.seek(static_cast<uint32_t>(SampleDraw::kLens));
+    stream.seek(static_cast<uint32_t>(SampleDimension::kLens));
     lens = stream.next2d();
   }
   if (scene_.camera.shutter_frames() > 0) {
-    stream.seek(static_cast<uint32_t>(SampleDraw::kTime));
+    stream.seek(static_cast<uint32_t>(SampleDimension::kTime));
     time = stream.next1d();
   }
   const CameraRay from = scene_.camera.ray(static_cast<float>(x) + 0.5f + result.offset.x,

@@ -13,7 +13,7 @@ namespace pelage {
 /// Index of the draw from SampleStream for each use of random numbers in a sample. The indices do not depend
 /// on the course of the path. Each vertex of the path has several draws; the draws of the first vertex start
 /// at kFirstVertex.
-enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
+enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
 struct CameraSample {
   Ray ray;

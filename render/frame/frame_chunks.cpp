@@ -92,8 +92,8 @@ void FrameChunks::divide_skins(const Job& job) {
   const auto max = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
   const size_t largest = making[max];
   const uint64_t limit = scene_.render.memory.bytes;
-  require_room(job.ledger, static_cast<int64_t>(largest),
-               "tessellating the skin of " + scene_.skins[max].name);
+  require_memory(job.ledger, static_cast<int64_t>(largest),
+                 "tessellating the skin of " + scene_.skins[max].name);
   const size_t concurrency = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
   const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(concurrency * largest) <=
                                      static_cast<int64_t>(limit);
@@ -236,8 +236,8 @@ FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   }
   if (leaves_.empty()) return plan;
   const auto one = static_cast<int64_t>(plan.block + strands);
-  require_room(job.ledger, std::max(one, static_cast<int64_t>(largest)),
-               "growing the largest chunk of " + scene_.fur[parts_[which]].name);
+  require_memory(job.ledger, std::max(one, static_cast<int64_t>(largest)),
+                 "growing the largest chunk of " + scene_.fur[parts_[which]].name);
   plan.concurrency = job.workers.thread_count();
   if (job.ledger.limit() > 0) {
     plan.concurrency = static_cast<int>(std::clamp<int64_t>(

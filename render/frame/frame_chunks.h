@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/job.h"
-#include "procedurals/bounding.h"
+#include "procedurals/bounds/bounding.h"
 #include "render/accel/chunk_grower.h"
 #include "render/frame/stored_skins.h"
 #include "render/scene/render_scene.h"

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "cache/residency_counts.h"
-#include "procedurals/growth_counts.h"
+#include "procedurals/bounds/growth_counts.h"
 #include "render/accel/trace_counts.h"
-#include "render/frame/knot_statistics.h"
+#include "render/frame/gather_point_statistics.h"
 #include "render/frame/occlusion_counts.h"
 #include "render/frame/ray_statistics.h"
 #include "render/frame/reflection_statistics.h"
@@ -27,7 +27,7 @@ struct FrameStatistics {
   RenderSeconds cpu_s;                     ///< CPU seconds of tiles; `residency` counts growth
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
   std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage
-  KnotStatistics knots;
+  GatherPointStatistics knots;
   ReflectionStatistics reflections;
 
   FrameStatistics& operator+=(const FrameStatistics& other);

@@ -21,8 +21,8 @@ struct PassState {
 /// no other thread writes the film. A slow watch delays the render.
 ///
 /// A watch may choose a region. Its pixels get all their samples before the other pixels get more; with
-/// adaptive sampling or a time limit, each pass renders the region first. The film is the same in the end. With
-/// the integrator `path` and splatted samples, the region has no effect.
+/// adaptive sampling or a time limit, each pass renders the region first. The film is the same in the end.
+/// With the integrator `path` and splatted samples, the region has no effect.
 ///
 /// With a watch and the integrator `path`, the passes are shorter, and the first sample of every pixel is
 /// taken on grids of 8, 4 and 2 pixels first. The film is the same in the end. With splatted samples, a watch

@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// Learns from shadow rays which fraction of a light arrives in a zone (see knot_keys.h) of a tile, by the
-/// direction towards the light. A guess never decides what a picture shows on average: it only makes the
-/// estimates of LightSharing less noisy, and helps to choose rays.
+/// Learns from shadow rays which fraction of a light arrives in a zone (see gather_point_keys.h) of a tile,
+/// by the direction towards the light. A guess never decides what a picture shows on average: it only makes
+/// the estimates of LightSharing less noisy, and helps to choose rays.
 class ArrivalGuess {
  public:
   /// Count of ranges of directions: the quarters of the faces of a cube.

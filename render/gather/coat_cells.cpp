@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "lod/size.h"
 #include "render/frame/rest_place.h"
-#include "render/gather/knot_level.h"
+#include "render/gather/gather_point_level.h"
 
 namespace pelage {
 namespace {
@@ -32,7 +32,7 @@ uint64_t CoatCells::key(const Hit& hit, const Strands& strand, float length, flo
   const uint64_t key = cube(hit, strand, kPixels, random);
   const int level = level_of(length, kPixels);
   const float u = unit_float(hash64(random_use("part of a strand"), random));
-  return hash64(key, pack(level, knot_near(place, level, u)));
+  return hash64(key, pack(level, gather_point_near(place, level, u)));
 }
 
 uint64_t CoatCells::patch(const Hit& hit, const Strands& strand) const {

@@ -37,7 +37,8 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
-  const auto drawn = static_cast<int64_t>(scene.render.gather.reuse ? DrawnLights::bytes(scene.lights) : 0);
+  const auto drawn =
+      static_cast<int64_t>(scene.render.gather.reuse ? FarLightSamples::bytes(scene.lights) : 0);
   return {tiles,
           reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + drawn,
                   "the sample buffer of the tiles that are rendered at once"),
@@ -221,8 +222,9 @@ bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
 
 void GatherLoop::land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch) {
   rejected_ += tile_.add_to(result_.window.film, result_.film, scratch);
-  scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
-                    .samples = static_cast<int64_t>(scratch.samples.points.size())};
+  scratch.gather_points +=
+      {.gather_points = static_cast<int64_t>(scratch.samples.zone_of_gather_point.size()),
+       .samples = static_cast<int64_t>(scratch.samples.points.size())};
   job_.progress.advance(static_cast<double>(count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
   double none = 0;
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
@@ -250,7 +252,7 @@ void GatherLoop::report(PassEnd end) {
   result_.mean_samples = sum / (static_cast<double>(result_.film.width()) * result_.film.height());
   result_.statistics.samples_rejected += rejected_;
   for (const auto& scratch : scratch_) {
-    result_.statistics.knots += scratch->knots;
+    result_.statistics.gather_points += scratch->gather_points;
     result_.statistics.reflections += scratch->indirect_paths.reflections;
   }
   IndirectClamp clamp;

@@ -44,14 +44,15 @@ uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
 
 size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   const size_t rays = lights * TileSamples::targets(lights);
-  const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
+  const size_t ordered =
+      GatherPointOrder::bytes(1, 1) + GatherPointOrder::bytes(rays, lights) + rays * sizeof(float);
   // At worst, each sample has a gather point of its own.
-  const size_t knot = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
-                      PathSharing::bytes_per_knot(lights);
-  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
+  const size_t gather_point = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_gather_point(lights) +
+                              PathSharing::bytes_per_gather_point(lights);
+  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + gather_point;
   // One sample in kPilotShare is a pilot; at least one is.
   const size_t pilots = rays * sizeof(ShadowRays::Pilot) * (samples / kPilotShare + 1);
-  return RecentStrandKnots::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
+  return RecentGatherPoints::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
          kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
@@ -80,11 +81,11 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   if (!look(first + pilot, count - pilot, job, scratch)) return false;
   if (!shadow_rays_.trace(samples, pilot_rays, job, scratch.shadow_rays, scratch, scratch.lights))
     return false;
-  scratch.lights.finish(samples.zone_of_knot.size());
-  scratch.paths.begin(samples.zone_of_knot.size(), samples.zones, lights, reuse);
+  scratch.lights.finish(samples.zone_of_gather_point.size());
+  scratch.paths.begin(samples.zone_of_gather_point.size(), samples.zones, lights, reuse);
   if (!indirect_paths_.trace(samples, job, scratch.indirect_paths, scratch, scratch.paths)) return false;
-  scratch.paths.finish(samples.zone_of_knot);
-  if (reuse) scratch.paths.blend(samples.patch_of_knot, samples.patches);
+  scratch.paths.finish(samples.zone_of_gather_point);
+  if (reuse) scratch.paths.blend(samples.patch_of_gather_point, samples.patches);
   return true;
 }
 
@@ -114,8 +115,8 @@ void GatherTile::add_scattered(uint32_t point, Scratch& scratch) const {
   const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.lights.size() * kLobeGroups];
   for (size_t light = 0; light < scene_.lights.size(); ++light) {
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.knot, light, g);
-      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.knot, light, g);
+      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.gather_point, light, g);
+      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.gather_point, light, g);
       scratch.sample.radiance += part;
       if (g >= layers_.groups) continue;
       scratch.by_layer[layers_.scattered(light, g)] += part;

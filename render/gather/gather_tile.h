@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/job.h"
-#include "render/frame/knot_statistics.h"
+#include "render/frame/gather_point_statistics.h"
 #include "render/frame/tile_order.h"
 #include "render/gather/indirect_paths.h"
 #include "render/gather/light_sharing.h"
@@ -18,8 +18,8 @@
 namespace pelage {
 
 /// Renders a tile. Finds the points that its camera samples see, and traces some of the rays that leave these
-/// points. All visible points that are assigned to the same gather point (see KnotKey) share the light that
-/// these rays find. The result depends only on the scene, the tile and the indices of its samples.
+/// points. All visible points that are assigned to the same gather point (see GatherPointKey) share the light
+/// that these rays find. The result depends only on the scene, the tile and the indices of its samples.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 class GatherTile {
@@ -75,7 +75,7 @@ struct GatherTile::Scratch final : SampleScratch {
   IndirectPaths::Scratch indirect_paths;
   LightSharing lights;
   PathSharing paths;
-  KnotStatistics knots;
+  GatherPointStatistics gather_points;
   uint32_t first_sample = 0;  ///< index of the first sample of the current call of trace()
 };
 

@@ -53,25 +53,26 @@ class IndirectPaths::ArrivingLight {
 bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
                           PathSharing& light) const {
   if (scene_.render.bounces == 0) return true;
-  scratch.order.sort(0, samples.points.size(), samples.zone_of_knot.size(),
-                     [&](size_t i) { return samples.points[i].knot; });
+  scratch.order.sort(0, samples.points.size(), samples.zone_of_gather_point.size(),
+                     [&](size_t i) { return samples.points[i].gather_point; });
   const double step = scene_.render.gather.reuse ? 1 / double{scene_.render.gather.paths} : 1;
   SystematicChoice choice(step, 0);
   size_t traced = 0;
   uint32_t last = TileSamples::kNoPoint;
   for (const uint32_t index : scratch.order.items()) {
     const VisiblePoint& point = samples.points[index];
-    const uint32_t knot = point.knot;
-    if (knot != std::exchange(last, knot))
-      choice = SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, knot)));
-    light.add_weights(knot, point.weights);
+    const uint32_t gather_point = point.gather_point;
+    if (gather_point != std::exchange(last, gather_point))
+      choice =
+          SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, gather_point)));
+    light.add_weights(gather_point, point.weights);
     const float mass = options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight()) : 1.0f;
     const uint32_t times = choice.times(mass);
     if (times == 0) continue;
     if (++traced % kPathsPerCheck == 0 && job.progress.cancelled()) return false;
     const auto factor = static_cast<float>(times * step / mass);
     follow(samples, point, factor, scratch, thread);
-    light.add_path(knot, point.weights, factor, scratch.arriving);
+    light.add_path(gather_point, point.weights, factor, scratch.arriving);
   }
   return true;
 }

@@ -6,7 +6,7 @@
 
 #include "base/job.h"
 #include "render/frame/reflection_statistics.h"
-#include "render/gather/knot_order.h"
+#include "render/gather/gather_point_order.h"
 #include "render/gather/path_sharing.h"
 #include "render/gather/tile_samples.h"
 #include "render/path/path_walk.h"
@@ -31,7 +31,7 @@ class IndirectPaths {
 
   struct Scratch {
     DirectLightScratch direct;
-    KnotOrder order;  // visible points, sorted by gather point
+    GatherPointOrder order;  // visible points, sorted by gather point
     ReflectionStatistics reflections;
     std::vector<Rgb> arriving;  // radiance that arrives at the visible point along a path, by light
   };

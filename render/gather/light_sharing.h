@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// For each gather point (see knot_keys.h) and each light, estimates the fraction of the light that reaches
-/// the visible points assigned to the gather point.
+/// For each gather point (see gather_point_keys.h) and each light, estimates the fraction of the light that
+/// reaches the visible points assigned to the gather point.
 ///
 /// The estimate uses shadow rays from some of these visible points. Each ray has a weight: the unoccluded
 /// light that the ray represents, including the light of points without a ray. On average, the sum of the
@@ -34,30 +34,30 @@ class LightSharing {
 
   // Gather points have the indices 0, 1, 2 ... They may be added in any order.
   /// Adds unoccluded light of one visible point, by lobe group, to U of its gather point.
-  void add_unoccluded(uint32_t knot, size_t light, const Rgb* lobes);
+  void add_unoccluded(uint32_t gather_point, size_t light, const Rgb* lobes);
   /// Adds light, by lobe group, times `factor` to the numerator of the fraction.
-  void add_arriving(uint32_t knot, size_t light, const Rgb* lobes, float factor);
+  void add_arriving(uint32_t gather_point, size_t light, const Rgb* lobes, float factor);
   /// Computes the fraction of each gather point and light. Call after all light was added.
-  void finish(size_t knots);
+  void finish(size_t gather_points);
   /// Returns what rays have found so far in this tile.
   ArrivalGuess& guess() { return guess_; }
   /// Returns the max memory per gather point, in bytes. The factor 2 is for vectors that double their size.
-  static size_t bytes_per_knot(size_t lights) { return 2 * lights * sizeof(Knot); }
+  static size_t bytes_per_gather_point(size_t lights) { return 2 * lights * sizeof(GatherPoint); }
   /// Returns the result of finish() for a gather point and a light.
-  const Rgb& fraction(uint32_t knot, size_t light, int group) const {
-    return knots_[knot * lights_ + light].arriving[group];
+  const Rgb& fraction(uint32_t gather_point, size_t light, int group) const {
+    return gather_points_[gather_point * lights_ + light].arriving[group];
   }
 
  private:
-  struct Knot {
+  struct GatherPoint {
     Rgb unoccluded[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
     Rgb arriving[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};  ///< finish() replaces it by the fraction
   };
-  Knot& at(uint32_t knot, size_t light);
+  GatherPoint& at(uint32_t gather_point, size_t light);
 
   size_t lights_ = 0;
   ArrivalGuess guess_;
-  std::vector<Knot> knots_;  // by gather point and light
+  std::vector<GatherPoint> gather_points_;  // by gather point and light
 };
 
 }  // namespace pelage

@@ -17,48 +17,51 @@ Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
 
 }  // namespace
 
-void PathSharing::begin(size_t knots, uint32_t zones, size_t lights, bool guess) {
+void PathSharing::begin(size_t gather_points, uint32_t zones, size_t lights, bool guess) {
   lights_ = lights;
   guess_ = guess;
-  weights_.assign(knots, {});
-  arrived_.assign(knots * lights * kLobeGroups, Rgb(0));
+  weights_.assign(gather_points, {});
+  arrived_.assign(gather_points * lights * kLobeGroups, Rgb(0));
   zone_traced_.assign(zones, Rgb(0));
   zone_arrived_.assign(zones * lights, Rgb(0));
 }
 
-void PathSharing::add_weights(uint32_t knot, const Rgb* weights) {
-  for (int g = 0; g < kLobeGroups; ++g) weights_[knot].all[g] += weights[g];
+void PathSharing::add_weights(uint32_t gather_point, const Rgb* weights) {
+  for (int g = 0; g < kLobeGroups; ++g) weights_[gather_point].all[g] += weights[g];
 }
 
-void PathSharing::add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance) {
-  ++weights_[knot].paths;
-  for (int g = 0; g < kLobeGroups; ++g) weights_[knot].traced[g] += factor * weights[g];
-  Rgb* arrived = &arrived_[knot * lights_ * kLobeGroups];
+void PathSharing::add_path(uint32_t gather_point, const Rgb* weights, float factor,
+                           std::span<const Rgb> radiance) {
+  ++weights_[gather_point].paths;
+  for (int g = 0; g < kLobeGroups; ++g) weights_[gather_point].traced[g] += factor * weights[g];
+  Rgb* arrived = &arrived_[gather_point * lights_ * kLobeGroups];
   for (const Rgb& light : radiance) {
     for (int g = 0; g < kLobeGroups; ++g) *arrived++ += factor * weights[g] * light;
   }
 }
 
-void PathSharing::finish(const std::vector<uint32_t>& zone_of_knot) {
-  const auto traced = [&](size_t knot) {
-    return weights_[knot].traced[0] + weights_[knot].traced[1] + weights_[knot].traced[2];
+void PathSharing::finish(const std::vector<uint32_t>& zone_of_gather_point) {
+  const auto traced = [&](size_t gather_point) {
+    return weights_[gather_point].traced[0] + weights_[gather_point].traced[1] +
+           weights_[gather_point].traced[2];
   };
-  const auto arrived = [&](size_t knot, size_t light) {
-    const Rgb* of = &arrived_[(knot * lights_ + light) * kLobeGroups];
+  const auto arrived = [&](size_t gather_point, size_t light) {
+    const Rgb* of = &arrived_[(gather_point * lights_ + light) * kLobeGroups];
     return of[0] + of[1] + of[2];
   };
-  for (size_t knot = 0; guess_ && knot < zone_of_knot.size(); ++knot) {
-    const uint32_t zone = zone_of_knot[knot];
-    zone_traced_[zone] += traced(knot);
-    for (size_t i = 0; i < lights_; ++i) zone_arrived_[zone * lights_ + i] += arrived(knot, i);
+  for (size_t gather_point = 0; guess_ && gather_point < zone_of_gather_point.size(); ++gather_point) {
+    const uint32_t zone = zone_of_gather_point[gather_point];
+    zone_traced_[zone] += traced(gather_point);
+    for (size_t i = 0; i < lights_; ++i) zone_arrived_[zone * lights_ + i] += arrived(gather_point, i);
   }
-  for (size_t knot = 0; knot < zone_of_knot.size(); ++knot) {
-    const Weights& own = weights_[knot];
-    const Rgb& zone = zone_traced_[zone_of_knot[knot]];
+  for (size_t gather_point = 0; gather_point < zone_of_gather_point.size(); ++gather_point) {
+    const Weights& own = weights_[gather_point];
+    const Rgb& zone = zone_traced_[zone_of_gather_point[gather_point]];
     for (size_t i = 0; i < lights_; ++i) {
-      const Rgb& all = zone_arrived_[zone_of_knot[knot] * lights_ + i];
-      const Rgb guess = guess_ ? ratio(all - arrived(knot, i), zone - traced(knot), zone) : Rgb(0);
-      Rgb* of = &arrived_[(knot * lights_ + i) * kLobeGroups];
+      const Rgb& all = zone_arrived_[zone_of_gather_point[gather_point] * lights_ + i];
+      const Rgb guess =
+          guess_ ? ratio(all - arrived(gather_point, i), zone - traced(gather_point), zone) : Rgb(0);
+      Rgb* of = &arrived_[(gather_point * lights_ + i) * kLobeGroups];
       for (int g = 0; g < kLobeGroups; ++g) {
         of[g] = guess + ratio(of[g] - guess * own.traced[g], own.all[g], Rgb(0));
       }
@@ -66,30 +69,31 @@ void PathSharing::finish(const std::vector<uint32_t>& zone_of_knot) {
   }
 }
 
-void PathSharing::blend(const std::vector<uint32_t>& patch_of_knot, uint32_t patches) {
-  const auto part = [&](size_t knot) {
-    return kPatchPaths / (kPatchPaths + static_cast<float>(weights_[knot].paths));
+void PathSharing::blend(const std::vector<uint32_t>& patch_of_gather_point, uint32_t patches) {
+  const auto part = [&](size_t gather_point) {
+    return kPatchPaths / (kPatchPaths + static_cast<float>(weights_[gather_point].paths));
   };
   const size_t values = lights_ * kLobeGroups;  // of a gather point
   patch_weights_.assign(size_t{patches} * kLobeGroups, Rgb(0));
   patch_scattered_.assign(patches * values, Rgb(0));
-  for (size_t knot = 0; knot < patch_of_knot.size(); ++knot) {
-    const size_t patch = patch_of_knot[knot];
-    const Rgb* radiance = &arrived_[knot * values];
+  for (size_t gather_point = 0; gather_point < patch_of_gather_point.size(); ++gather_point) {
+    const size_t patch = patch_of_gather_point[gather_point];
+    const Rgb* radiance = &arrived_[gather_point * values];
     Rgb weights[kLobeGroups];
     for (size_t g = 0; g < kLobeGroups; ++g) {
-      weights[g] = part(knot) * weights_[knot].all[g];
+      weights[g] = part(gather_point) * weights_[gather_point].all[g];
       patch_weights_[patch * kLobeGroups + g] += weights[g];
     }
     for (size_t i = 0; i < values; ++i)
       patch_scattered_[patch * values + i] += weights[i % kLobeGroups] * radiance[i];
   }
-  for (size_t knot = 0; knot < patch_of_knot.size(); ++knot) {
-    const size_t patch = patch_of_knot[knot];
+  for (size_t gather_point = 0; gather_point < patch_of_gather_point.size(); ++gather_point) {
+    const size_t patch = patch_of_gather_point[gather_point];
     for (size_t i = 0; i < values; ++i) {
-      Rgb& radiance = arrived_[knot * values + i];
+      Rgb& radiance = arrived_[gather_point * values + i];
       const Rgb& weights = patch_weights_[patch * kLobeGroups + i % kLobeGroups];
-      radiance += part(knot) * (ratio(patch_scattered_[patch * values + i], weights, Rgb(0)) - radiance);
+      radiance +=
+          part(gather_point) * (ratio(patch_scattered_[patch * values + i], weights, Rgb(0)) - radiance);
     }
   }
 }

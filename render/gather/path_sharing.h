@@ -10,9 +10,9 @@
 
 namespace pelage {
 
-/// For each gather point (see knot_keys.h), light and lobe group, estimates the mean radiance of the indirect
-/// light that arrives at the visible points assigned to the gather point. The indirect light that a visible
-/// point scatters to the camera is this radiance times the weight of the point, rho / pdf.
+/// For each gather point (see gather_point_keys.h), light and lobe group, estimates the mean radiance of the
+/// indirect light that arrives at the visible points assigned to the gather point. The indirect light that a
+/// visible point scatters to the camera is this radiance times the weight of the point, rho / pdf.
 ///
 /// The estimate uses paths from some of these points. For one gather point, light, lobe group and colour, let
 ///   W        be the sum of the weights of all points,
@@ -26,27 +26,27 @@ class PathSharing {
  public:
   /// Starts a tile. `guess`: whether p is the mean over the other gather points of the zone; otherwise, p =
   /// 0.
-  void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
+  void begin(size_t gather_points, uint32_t zones, size_t lights, bool guess);
 
   /// Adds the weights of a visible point, by lobe group, to its gather point. Call for every visible point,
   /// with or without a path.
-  void add_weights(uint32_t knot, const Rgb* weights);
+  void add_weights(uint32_t gather_point, const Rgb* weights);
   /// Adds a path of a point with these weights. The path brings the light weights[g] * radiance[light] to the
   /// camera, by lobe group g and light. `factor`: the count of points that the path represents.
-  void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
+  void add_path(uint32_t gather_point, const Rgb* weights, float factor, std::span<const Rgb> radiance);
   /// Computes the radiances. Call after all paths were added.
-  void finish(const std::vector<uint32_t>& zone_of_knot);
-  /// Blends the radiances of each patch (see KnotKey), after finish(). The fewer paths a gather point has,
-  /// the closer its radiance comes to the mean of its patch. The sum of the light that the gather points of a
-  /// patch scatter does not change.
-  void blend(const std::vector<uint32_t>& patch_of_knot, uint32_t patches);
+  void finish(const std::vector<uint32_t>& zone_of_gather_point);
+  /// Blends the radiances of each patch (see GatherPointKey), after finish(). The fewer paths a gather point
+  /// has, the closer its radiance comes to the mean of its patch. The sum of the light that the gather points
+  /// of a patch scatter does not change.
+  void blend(const std::vector<uint32_t>& patch_of_gather_point, uint32_t patches);
   /// Returns the max memory per gather point, in bytes. At worst, each gather point has a patch of its own.
-  static size_t bytes_per_knot(size_t lights) {
+  static size_t bytes_per_gather_point(size_t lights) {
     return sizeof(Weights) + kLobeGroups * sizeof(Rgb) + 2 * lights * kLobeGroups * sizeof(Rgb);
   }
   /// Returns the result of finish() or blend().
-  const Rgb& radiance(uint32_t knot, size_t light, int group) const {
-    return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
+  const Rgb& radiance(uint32_t gather_point, size_t light, int group) const {
+    return arrived_[(gather_point * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
   }
 
  private:

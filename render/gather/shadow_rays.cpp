@@ -35,7 +35,7 @@ double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scra
     const LightRay* before = i > first ? &ray - 1 : nullptr;
     if (!before || before->point != ray.point || before->light != ray.light) {
       const size_t lobes = (ray.point * scene_.lights.size() + ray.light) * kLobeGroups;
-      light.add_unoccluded(point.knot, ray.light, &samples.unoccluded[lobes]);
+      light.add_unoccluded(point.gather_point, ray.light, &samples.unoccluded[lobes]);
     }
     const double expected = ray.unoccluded * chance(samples, ray, light.guess());
     scratch.pixel_light[point.pixel] += expected;
@@ -80,10 +80,10 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   const size_t count = samples.light_rays.size() - first;
   if (count == 0) return true;
   const double tile_light = add_unoccluded(samples, first, scratch, light);
-  const size_t lights = scene_.lights.size(), knots = samples.zone_of_knot.size();
-  scratch.order.sort(first, count, knots * lights, [&](size_t i) {
+  const size_t lights = scene_.lights.size(), gather_points = samples.zone_of_gather_point.size();
+  scratch.order.sort(first, count, gather_points * lights, [&](size_t i) {
     const LightRay& ray = samples.light_rays[i];
-    return samples.points[ray.point].knot * lights + ray.light;
+    return samples.points[ray.point].gather_point * lights + ray.light;
   });
   const double darkest = kDarkest * tile_light / static_cast<double>(samples.pixels());
   const double mass = weigh(samples, darkest, light.guess(), scratch);
@@ -94,11 +94,12 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   size_t traced = 0;
   scratch.pilots.clear();
   const float* masses = scratch.masses.data();
-  for (uint32_t knot = 0; knot < knots; ++knot) {
-    const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
+  for (uint32_t gather_point = 0; gather_point < gather_points; ++gather_point) {
+    const std::span<const uint32_t> items = scratch.order.groups(gather_point * lights, lights);
     if (items.empty()) continue;
     // Gather points choose independently: the rays of one say nothing about the rays of another.
-    const uint64_t random = hash64(random_use("shadow rays"), samples.random_key, first > 0 ? 1 : 0, knot);
+    const uint64_t random =
+        hash64(random_use("shadow rays"), samples.random_key, first > 0 ? 1 : 0, gather_point);
     SystematicChoice choice(mass / rays, unit_float(random));
     for (const uint32_t index : items) {
       const float of_ray = *masses++;
@@ -115,7 +116,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       const uint32_t zone = samples.zone(samples.points[ray.point]);
       const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
       const float expected = guesses_ ? light.guess().fraction(zone, ray.light, range) : 0.0f;
-      light.add_arriving(knot, ray.light, ray.lobes, factor * (through - expected));
+      light.add_arriving(gather_point, ray.light, ray.lobes, factor * (through - expected));
     }
   }
   if (first == 0) finish_pilot(samples, scratch, light);
@@ -128,7 +129,9 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
   ArrivalGuess& guess = light.guess();
   const size_t lights = scene_.lights.size();
   const auto& pilots = scratch.pilots;
-  const auto knot_of = [&](uint32_t ray) { return samples.points[samples.light_rays[ray].point].knot; };
+  const auto gather_point_of = [&](uint32_t ray) {
+    return samples.points[samples.light_rays[ray].point].gather_point;
+  };
   const auto add = [&](const Pilot& pilot, const auto& to) {
     const LightRay& ray = samples.light_rays[pilot.ray];
     to(ray, ArrivalGuess::range_of(ray.ray.direction), double{ray.unoccluded} * pilot.factor);
@@ -143,12 +146,12 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
     return scratch.own[light_index * (kAll + 1) + range];
   };
   size_t next = 0;
-  for (uint32_t knot = 0; knot < samples.zone_of_knot.size(); ++knot) {
-    const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
+  for (uint32_t gather_point = 0; gather_point < samples.zone_of_gather_point.size(); ++gather_point) {
+    const std::span<const uint32_t> items = scratch.order.groups(gather_point * lights, lights);
     if (items.empty()) continue;
     const size_t begin = next;
     scratch.own.assign(lights * (kAll + 1), {});
-    for (; next < pilots.size() && knot_of(pilots[next].ray) == knot; ++next) {
+    for (; next < pilots.size() && gather_point_of(pilots[next].ray) == gather_point; ++next) {
       add(pilots[next], [&](const LightRay& ray, uint32_t range, double luminance) {
         own(ray.light, range).add(luminance, pilots[next].through);
         own(ray.light, kAll).add(luminance, pilots[next].through);
@@ -156,17 +159,18 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
     }
     const auto expected = [&](const LightRay& ray) {
       const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
-      return guesses_ ? guess.fraction_without(samples.zone_of_knot[knot], ray.light, range,
+      return guesses_ ? guess.fraction_without(samples.zone_of_gather_point[gather_point], ray.light, range,
                                                own(ray.light, range), own(ray.light, kAll))
                       : 0.0f;
     };
     for (const uint32_t index : items) {
       const LightRay& ray = samples.light_rays[index];
-      light.add_arriving(knot, ray.light, ray.lobes, expected(ray));
+      light.add_arriving(gather_point, ray.light, ray.lobes, expected(ray));
     }
     for (size_t i = begin; i < next; ++i) {
       const LightRay& ray = samples.light_rays[pilots[i].ray];
-      light.add_arriving(knot, ray.light, ray.lobes, pilots[i].factor * (pilots[i].through - expected(ray)));
+      light.add_arriving(gather_point, ray.light, ray.lobes,
+                         pilots[i].factor * (pilots[i].through - expected(ray)));
     }
   }
   guess.learn(scene_.render.gather.reject);

@@ -7,7 +7,7 @@
 #include "base/job.h"
 #include "render/accel/accel.h"
 #include "render/frame/sample_integrator.h"
-#include "render/gather/knot_order.h"
+#include "render/gather/gather_point_order.h"
 #include "render/gather/light_sharing.h"
 #include "render/gather/tile_samples.h"
 #include "render/scene/render_scene.h"
@@ -33,7 +33,7 @@ class ShadowRays {
     float through = 0;  ///< fraction that the ray transmits
   };
   struct Scratch {
-    KnotOrder order;                      // candidate rays, sorted by gather point and light
+    GatherPointOrder order;               // candidate rays, sorted by gather point and light
     std::vector<float> masses;            // masses for SystematicChoice of the rays in `order`
     std::vector<double> pixel_light;      // direct luminance that is expected to reach the camera, by pixel
     std::vector<Pilot> pilots;            // rays of the first call that were traced

@@ -15,8 +15,8 @@ void TileSamples::begin(const Tile& of, uint32_t samples_per_pixel, size_t light
   start(points, count);
   start(light_rays, count * lights * targets(lights));
   start(unoccluded, count * lights * kLobeGroups);
-  start(zone_of_knot, count);
-  start(patch_of_knot, count);
+  start(zone_of_gather_point, count);
+  start(patch_of_gather_point, count);
   fronts.assign(pixels(), {});
   zones = patches = 0;
 }

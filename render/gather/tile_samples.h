@@ -22,12 +22,12 @@ struct LeavingRay {
 
 /// A point of a strand or skin that a camera sample sees, with one ray in a direction sampled from its lobes.
 struct VisiblePoint {
-  uint32_t pixel = 0;      ///< index of the pixel in the tile
-  uint32_t sample = 0;     ///< index of the sample in its pixel
-  uint32_t knot = 0;       ///< index in TileSamples::zone_of_knot
-  float time = 0;          ///< of the shutter, in [0, 1]
-  uint32_t random = 0;     ///< PathState::random at this point
-  StrandStart start = {};  ///< Hit::start; empty if a ray may hit the strand that it leaves
+  uint32_t pixel = 0;         ///< index of the pixel in the tile
+  uint32_t sample = 0;        ///< index of the sample in its pixel
+  uint32_t gather_point = 0;  ///< index in TileSamples::zone_of_gather_point
+  float time = 0;             ///< of the shutter, in [0, 1]
+  uint32_t random = 0;        ///< PathState::random at this point
+  StrandStart start = {};     ///< Hit::start; empty if a ray may hit the strand that it leaves
 
   LeavingRay scattered;  ///< the ray sampled from the lobes
   /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was sampled
@@ -91,9 +91,10 @@ struct TileSamples {
   std::vector<LightRay> light_rays;  ///< by point, then by light; at most targets() of each
   /// Direct light that the points scatter to the camera if nothing blocks it, by point, light and lobe group.
   std::vector<Rgb> unoccluded;
-  std::vector<uint32_t> zone_of_knot;   ///< index of the zone (see KnotKey) of each gather point
-  std::vector<uint32_t> patch_of_knot;  ///< index of the patch of each gather point
-  uint32_t zones = 0, patches = 0;      ///< count of each
+  std::vector<uint32_t>
+      zone_of_gather_point;  ///< index of the zone (see GatherPointKey) of each gather point
+  std::vector<uint32_t> patch_of_gather_point;  ///< index of the patch of each gather point
+  uint32_t zones = 0, patches = 0;              ///< count of each
 
   /// Clears everything and reserves the memory of the samples.
   void begin(const Tile& of, uint32_t samples_per_pixel, size_t lights);
@@ -103,7 +104,7 @@ struct TileSamples {
   int x(uint32_t pixel) const { return tile.x0 + static_cast<int>(pixel) % columns(); }
   int y(uint32_t pixel) const { return tile.y0 + static_cast<int>(pixel) / columns(); }
   /// Returns the zone of the gather point that the visible point is assigned to.
-  uint32_t zone(const VisiblePoint& point) const { return zone_of_knot[point.knot]; }
+  uint32_t zone(const VisiblePoint& point) const { return zone_of_gather_point[point.gather_point]; }
 
   /// Returns the max count of shadow rays from a point to each light of a scene with so many lights. A single
   /// light gets two rays, because otherwise the noise of its visibility exceeds all other noise.

@@ -11,11 +11,11 @@
 namespace pelage {
 namespace {
 
-/// Draws after SampleDraw::kFirstVertex, the same as those of a path's first vertex.
-enum FirstVertexDraw : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
+/// Draws after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
+enum FirstVertexDimension : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
 
-void seek(SampleStream& stream, FirstVertexDraw draw) {
-  stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + draw);
+void seek(SampleStream& stream, FirstVertexDimension draw) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + draw);
 }
 
 /// The i-th number of a sequence in [0, 1) from the random number u: a rotation by the golden ratio.
@@ -35,16 +35,18 @@ VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shadi
       drawn_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &drawn_) {}
 
-uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
+uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scratch,
+                                        TileSamples& tile) const {
   // Without reuse, each point has a gather point of its own.
-  const auto count = static_cast<uint32_t>(tile.zone_of_knot.size());
-  const uint32_t knot = scene_.render.gather.reuse ? scratch.knots.index(key.knot) : count;
-  if (knot < count) return knot;
-  tile.zone_of_knot.push_back(scratch.zones.index(key.zone));
-  tile.patch_of_knot.push_back(scratch.patches.index(key.patch));
+  const auto count = static_cast<uint32_t>(tile.zone_of_gather_point.size());
+  const uint32_t gather_point =
+      scene_.render.gather.reuse ? scratch.gather_points.index(key.gather_point) : count;
+  if (gather_point < count) return gather_point;
+  tile.zone_of_gather_point.push_back(scratch.zones.index(key.zone));
+  tile.patch_of_gather_point.push_back(scratch.patches.index(key.patch));
   tile.zones = scratch.zones.size();
   tile.patches = scratch.patches.size();
-  return knot;
+  return gather_point;
 }
 
 void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
@@ -74,17 +76,17 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const V2f choice(unit_float(random), unit_float(mix64(random)));
-  const KnotKey key = keys_.of(hit, thread.thread.met, choice, scratch.strands);
+  const GatherPointKey key = keys_.of(hit, thread.thread.met, choice, scratch.strands);
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
-  visible.knot = knot_of(key, scratch, tile);
+  visible.gather_point = gather_point_of(key, scratch, tile);
   visible.time = from.ray.time;
   visible.random = from.ray.random;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
   find_light(point, stream, scratch, thread, visible, tile);
-  expect_light(visible, tile.zone_of_knot[visible.knot], scratch, sharing);
+  expect_light(visible, tile.zone_of_gather_point[visible.gather_point], scratch, sharing);
   seek(stream, kLightChoice);
   choose_targets(point, stream.next1d(), scratch, tile);
   tile.points.push_back(visible);
@@ -151,7 +153,7 @@ void VisiblePoints::expect_light(const VisiblePoint& visible, uint32_t zone, Scr
     scratch.masses[candidate.light] += candidate.mass * candidate.deviation;
     if (!scene_.render.gather.reuse) continue;
     const float fraction = guess.fraction(zone, candidate.light, range);
-    if (fraction > 0) sharing.add_arriving(visible.knot, candidate.light, candidate.lobes, fraction);
+    if (fraction > 0) sharing.add_arriving(visible.gather_point, candidate.light, candidate.lobes, fraction);
   }
 }
 

@@ -8,12 +8,12 @@
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
 #include "render/frame/sample_integrator.h"
+#include "render/gather/gather_point_keys.h"
 #include "render/gather/index_table.h"
-#include "render/gather/knot_keys.h"
 #include "render/gather/light_sharing.h"
 #include "render/gather/tile_samples.h"
 #include "render/light/direct_light.h"
-#include "render/light/drawn_lights.h"
+#include "render/light/far_light_samples.h"
 
 namespace pelage {
 
@@ -42,14 +42,14 @@ class VisiblePoints {
 
   struct Scratch {
     DirectLightScratch direct;
-    IndexTable knots, patches, zones;  // index of each, by its key
-    RecentStrandKnots strands;
+    IndexTable gather_points, patches, zones;  // index of each, by its key
+    RecentGatherPoints strands;
     std::vector<Candidate> candidates;  // of the current point
     std::vector<float> masses;          // sum of mass * deviation over the candidates, by light
 
     /// Forgets the gather points, patches and zones of the last tile.
     void clear() {
-      knots.clear();
+      gather_points.clear();
       patches.clear();
       zones.clear();
     }
@@ -62,7 +62,7 @@ class VisiblePoints {
             SampleScratch& thread, LightSharing& sharing, TileSamples& tile) const;
 
  private:
-  uint32_t knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const;
+  uint32_t gather_point_of(const GatherPointKey& key, Scratch& scratch, TileSamples& tile) const;
   void find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch, SampleScratch& thread,
                   VisiblePoint& visible, TileSamples& tile) const;
   void expect_light(const VisiblePoint& visible, uint32_t zone, Scratch& scratch,
@@ -72,8 +72,8 @@ class VisiblePoints {
   const RenderScene& scene_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
-  KnotKeys keys_;
-  DrawnLights drawn_;
+  GatherPointKeys keys_;
+  FarLightSamples drawn_;
   DirectLight direct_;
 };
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "render/light/drawn_lights.h"
+#include "render/light/far_light_samples.h"
 #include "render/light/light_set.h"
 #include "render/light/mis.h"
 #include "render/light/scatter_point.h"
@@ -55,7 +55,7 @@ class DirectLight {
   /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `drawn`: where
   /// points on lights come from; null: Light::sample().
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
-              const DrawnLights* drawn = nullptr)
+              const FarLightSamples* drawn = nullptr)
       : lights_(lights), drawn_(drawn), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
@@ -116,7 +116,7 @@ class DirectLight {
                                         DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
-  const DrawnLights* const drawn_;
+  const FarLightSamples* const drawn_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
 };

@@ -83,14 +83,15 @@ class PathWalk {
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
-  enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
+  enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDimensions = 5 };
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
   /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
 
   /// Sets the next draw of the path's random numbers to a draw of the current vertex.
   static void seek(PathState& path, Draw draw) {
-    path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
+    path.stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + kVertexDimensions * path.vertex +
+                     draw);
   }
   /// Continues a path that has hit its next vertex.
   void walk_on(PathState& path, DirectLightScratch& lights, SampleScratch& scratch, Sink& sink) const {

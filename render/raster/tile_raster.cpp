@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/process_usage.h"
-#include "render/raster/fine_box_view.h"
+#include "render/raster/segment_cell_view.h"
 #include "render/raster/tile_drawing.h"
 
 namespace pelage {
@@ -38,7 +38,7 @@ float reference_depth(const RenderScene& scene, const Accel& accel, const TileFr
 }  // namespace
 
 size_t TileRaster::scratch_bytes(size_t samples) {
-  return HeldStrands::bytes_bound() + samples * (sizeof(CameraSample) + sizeof(TileLine)) +
+  return StrandCache::bytes_bound() + samples * (sizeof(CameraSample) + sizeof(TileLine)) +
          TileLines::bytes(samples) + TileHits::bytes(samples) +
          2 * (kCandidates + 1) * sizeof(Scratch::Candidate);
 }
@@ -194,15 +194,15 @@ void TileRaster::find_candidates(std::array<bool, 2> wanted, const Beam& beam, f
 /// wider than strands, so drawing a chunk whose boxes are hidden could change which samples are traced.
 bool TileRaster::may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
   if (!drawing.may_see(seen_box(chunks_.boxes().whole(chunk)))) return false;
-  return !chunks_.boxes().has_fine(chunk) || fine_boxes_may_be_seen(chunk, drawing);
+  return !chunks_.boxes().has_fine(chunk) || segment_cell_bounds_may_be_seen(chunk, drawing);
 }
 
-bool TileRaster::fine_boxes_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
-  const FineBoxes& fine = chunks_.boxes().fine(chunk);
+bool TileRaster::segment_cell_bounds_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
+  const SegmentCellBounds& fine = chunks_.boxes().fine(chunk);
   // No strand of the chunk is widened more than one at the farthest point of its box.
   const Box3f& whole = chunks_.boxes().whole(chunk);
   const float wider = whole.isEmpty() ? 0 : whole.min.x - seen_box(whole).min.x;
-  const FineBoxView view(drawing.frame(), fine.grid(), chunks_.boxes().margin(chunk) + 1.001f * wider);
+  const SegmentCellView view(drawing.frame(), fine.grid(), chunks_.boxes().margin(chunk) + 1.001f * wider);
   if (!view.is_finite()) return true;
   // Three siblings wait on each level below the highest; 2^32 boxes have 16 levels.
   struct {
@@ -212,10 +212,10 @@ bool TileRaster::fine_boxes_may_be_seen(uint32_t chunk, const TileDrawing& drawi
   stack[waiting++] = {fine.levels() - 1, 0};
   while (waiting > 0) {
     const auto [level, at] = stack[--waiting];
-    const FineBoxes::Group& group = fine.level(level)[at];
+    const SegmentCellBounds::Group& group = fine.level(level)[at];
     const std::array<bool, 4> seen = drawing.may_see(view(group));
     for (size_t lane = 4; lane-- > 0;) {
-      if (!seen[lane] || !FineBoxView::exists(group, lane)) continue;
+      if (!seen[lane] || !SegmentCellView::exists(group, lane)) continue;
       if (level == 0) return true;
       stack[waiting++] = {level - 1, 4 * at + lane};
     }

@@ -12,7 +12,7 @@
 #include "render/accel/resident_chunks.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/tile_order.h"
-#include "render/raster/held_strands.h"
+#include "render/raster/strand_cache.h"
 #include "render/raster/tile_frame.h"
 #include "render/raster/tile_hits.h"
 #include "render/raster/tile_lines.h"
@@ -57,7 +57,7 @@ class TileRaster {
     TileHits hits;
     std::vector<Candidate> candidates[2];  ///< by ChunkKind
     uint32_t samples_per_pixel = 0;
-    HeldStrands held;
+    StrandCache held;
     int64_t traced = 0;   ///< samples whose ray was traced
     double growth_s = 0;  ///< CPU seconds of the last find() in which chunks were grown
   };
@@ -102,7 +102,7 @@ class TileRaster {
   std::optional<Hit> drawn_hit(size_t slot, TraceThread& thread, Scratch& scratch) const;
   Box3f seen_box(const Box3f& box) const { return min_width_.pixels > 0 ? min_width_.around(box) : box; }
   bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
-  bool fine_boxes_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
+  bool segment_cell_bounds_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
   const RenderScene& scene_;
   const Accel& accel_;

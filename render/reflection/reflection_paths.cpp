@@ -10,11 +10,11 @@
 namespace pelage {
 namespace {
 
-/// Draws after SampleDraw::kFirstVertex, the same as those of a path's first vertex.
-enum FirstVertexDraw : uint32_t { kLobe = 1, kRoulette = 3 };
+/// Draws after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
+enum FirstVertexDimension : uint32_t { kLobe = 1, kRoulette = 3 };
 
-void seek(SampleStream& stream, FirstVertexDraw draw) {
-  stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + draw);
+void seek(SampleStream& stream, FirstVertexDimension draw) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + draw);
 }
 
 }  // namespace

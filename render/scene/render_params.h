@@ -7,7 +7,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "lod/simplification_params.h"
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/camera/camera.h"
 #include "render/sampling/adaptive_params.h"
 #include "render/scene/gather_params.h"

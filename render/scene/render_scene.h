@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lod/simplification.h"
-#include "procedurals/deferred_skin.h"
-#include "procedurals/procedural.h"
+#include "procedurals/bounds/procedural.h"
+#include "procedurals/skin/deferred_skin.h"
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_set.h"

@@ -54,7 +54,7 @@ float GlossyBsdf::visible_normal_density(const V3f& half) const {
 }
 
 // [Heitz18, listing 1]: a point of the visible half disk of a hemisphere seen along the stretched wo.
-V3f GlossyBsdf::draw_visible_normal(const V2f& u) const {
+V3f GlossyBsdf::sample_visible_normal(const V2f& u) const {
   const V3f view = V3f(alpha_ * wo_.x, alpha_ * wo_.y, wo_.z).normalized();
   V3f x, y;
   complete_frame(view, x, y);
@@ -93,7 +93,7 @@ GlossyValue GlossyBsdf::eval(const V3f& wi) const { return eval_local(frame_.to_
 std::optional<GlossySample> GlossyBsdf::sample(const V3f& u) const {
   V3f wi;
   if (u.z < coat_choice_) {
-    const V3f half = draw_visible_normal({u.x, u.y});
+    const V3f half = sample_visible_normal({u.x, u.y});
     wi = 2 * wo_.dot(half) * half - wo_;
   } else {
     const V2f disk = concentric_disk({u.x, u.y});

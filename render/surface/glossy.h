@@ -41,7 +41,7 @@ class GlossyBsdf {
   float fresnel(float cosine) const;
   GlossyValue eval_local(const V3f& wi) const;
   float visible_normal_density(const V3f& half) const;
-  V3f draw_visible_normal(const V2f& u) const;
+  V3f sample_visible_normal(const V2f& u) const;
 
   Rgb albedo_;
   float alpha_;

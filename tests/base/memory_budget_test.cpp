@@ -17,7 +17,7 @@ TEST(MemoryBudget, TextNeverSaysNothing) {
 
 TEST(MemoryBudget, WithoutALimitEverythingFits) {
   const MemoryLedger ledger;
-  EXPECT_NO_THROW(require_room(ledger, int64_t{1} << 60, "a mountain"));
+  EXPECT_NO_THROW(require_memory(ledger, int64_t{1} << 60, "a mountain"));
   EXPECT_TRUE(has_room(ledger, int64_t{1} << 60));
 }
 
@@ -27,11 +27,11 @@ TEST(MemoryBudget, RefusalNamesTheThingWhatIsInUseAndWhatWouldDo) {
   const MemoryCharge skins(ledger, MemoryTag::kSkins, 30 << 20);
   const MemoryCharge textures(ledger, MemoryTag::kTextures, 10 << 20);
   const MemoryCharge libraries(ledger, MemoryTag::kLibraries, 100 << 20);  // not of the budget
-  EXPECT_NO_THROW(require_room(ledger, 24 << 20, "groom 'coat'"));
+  EXPECT_NO_THROW(require_memory(ledger, 24 << 20, "groom 'coat'"));
   EXPECT_TRUE(has_room(ledger, 24 << 20));
   EXPECT_FALSE(has_room(ledger, (24 << 20) + 1));
   try {
-    require_room(ledger, 25 << 20, "placing 5000 strands of groom 'coat'");
+    require_memory(ledger, 25 << 20, "placing 5000 strands of groom 'coat'");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);

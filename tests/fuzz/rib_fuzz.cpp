@@ -3,9 +3,9 @@
 
 #include "base/check.h"
 #include "geom/curve_bounds.h"
-#include "procedurals/rib/rib_reading.h"
+#include "rib/document/rib_document.h"
+#include "rib/scene/rib_reading.h"
 #include "tests/fuzz/fuzz_targets.h"
-#include "world/rib_document.h"
 #include "world/scene_schema.h"
 
 namespace pelage {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/temporary_folder.h"
-#include "groom/cache_report.h"
+#include "groom/cache/cache_report.h"
 #include "groom/groom.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"

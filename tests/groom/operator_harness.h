@@ -10,11 +10,11 @@
 
 #include "base/hash.h"
 #include "base/job.h"
-#include "groom/follicles.h"
-#include "groom/operator.h"
-#include "groom/operator_stack.h"
-#include "groom/rotation.h"
-#include "groom/strand_batch.h"
+#include "groom/follicles/follicles.h"
+#include "groom/operators/operator.h"
+#include "groom/operators/operator_stack.h"
+#include "groom/strands/rotation.h"
+#include "groom/strands/strand_batch.h"
 #include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 

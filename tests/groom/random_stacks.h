@@ -2,10 +2,10 @@
 #pragma once
 
 #include "base/hash.h"
-#include "groom/bend.h"
-#include "groom/curl.h"
-#include "groom/noise.h"
-#include "groom/push_out.h"
+#include "groom/operators/bend.h"
+#include "groom/operators/curl.h"
+#include "groom/operators/noise.h"
+#include "groom/operators/push_out.h"
 #include "tests/groom/stacks.h"
 
 namespace pelage::stacks {

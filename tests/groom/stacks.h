@@ -4,12 +4,12 @@
 #include <memory>
 #include <utility>
 
-#include "groom/clump.h"
-#include "groom/comb.h"
-#include "groom/frizz.h"
-#include "groom/length.h"
-#include "groom/operator_list.h"
-#include "groom/width.h"
+#include "groom/operators/clump.h"
+#include "groom/operators/comb.h"
+#include "groom/operators/frizz.h"
+#include "groom/operators/length.h"
+#include "groom/operators/operator_list.h"
+#include "groom/operators/width.h"
 
 namespace pelage::stacks {
 

@@ -7,7 +7,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 cmake --install "$1" --prefix "$scratch/prefix" >"$scratch/install.log"
-for internal in cli/options.h render/path/path_tracer.h groom/follicle_candidates.h; do
+for internal in cli/options.h render/path/path_tracer.h groom/follicles/follicle_candidates.h; do
   [ ! -e "$scratch/prefix/include/pelage/$internal" ] || { echo "$internal is internal, but installed"; exit 1; }
 done
 cmake -S "$source_dir" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix"

@@ -32,7 +32,7 @@ class GrowthIdentity(unittest.TestCase):
         right = self.identity()
         self.assertEqual(self.identity(), right)
         self.assertNotEqual(self.identity("c++ -O3"), right)
-        for name in ("base/hash.h", "image/noise.cpp", "geom/limit_surface.cpp", "geom/io/hair_file.cpp", "groom/curl.cpp"):
+        for name in ("base/hash.h", "image/noise.cpp", "geom/limit_surface.cpp", "geom/io/hair_file.cpp", "groom/operators/curl.cpp"):
             path = self.root / name
             before = path.read_bytes()
             path.write_bytes(before + b"// more\n")

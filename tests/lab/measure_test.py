@@ -154,8 +154,8 @@ class Measure(unittest.TestCase):
                 self.assertEqual(many["knots"], 0)
                 self.assertIsNone(many["reuse_bias"])
             self.assertIsNone(few["reuse_bias"])
-        self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_knot"], 1)
-        self.assertGreater(rows["gather, 16"]["samples_per_knot"], 1)
+        self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_gather_point"], 1)
+        self.assertGreater(rows["gather, 16"]["samples_per_gather_point"], 1)
         cached = rows["gather, cache: true, 16"]
         self.assertGreater(cached["reflection_cells"], 0)
         self.assertGreater(cached["reflection_paths"], 0)

@@ -9,7 +9,7 @@
 
 #include "base/progress.h"
 #include "geom/curve_bounds.h"
-#include "procedurals/bounding.h"
+#include "procedurals/bounds/bounding.h"
 
 namespace pelage {
 
@@ -61,9 +61,9 @@ inline float surface_area(const Box3f& box) {
   return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
 }
 
-inline bool same(const FineBoxes& a, const FineBoxes& b) {
+inline bool same(const SegmentCellBounds& a, const SegmentCellBounds& b) {
   if (a.count() != b.count() || a.levels() != b.levels()) return false;
-  const FineBoxes::Grid &x = a.grid(), &y = b.grid();
+  const SegmentCellBounds::Grid &x = a.grid(), &y = b.grid();
   if (x.corner != y.corner || x.motion != y.motion || x.step != y.step) return false;
   return a.count() == 0 || std::equal(a.level(0).begin(), a.level(0).end(), b.level(0).begin());
 }

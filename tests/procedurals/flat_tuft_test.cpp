@@ -8,7 +8,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "image/texture_library.h"
-#include "procedurals/coat_stats.h"
+#include "procedurals/detail/coat_stats.h"
 #include "procedurals/fur.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
-#include "procedurals/bounds_file.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/bounds_file.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "tests/procedurals/bounds_checks.h"
 #include "tests/procedurals/random_coats.h"
 

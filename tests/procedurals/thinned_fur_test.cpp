@@ -9,7 +9,7 @@
 #include "base/temporary_folder.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
-#include "procedurals/coat_stats.h"
+#include "procedurals/detail/coat_stats.h"
 #include "procedurals/fur.h"
 #include "tests/procedurals/random_coats.h"
 #include "tests/support/quiet_job.h"

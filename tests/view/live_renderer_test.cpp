@@ -70,7 +70,7 @@ class LiveRendererTest : public testing::Test {
   }
 
   SmallScene scene_{true};
-  ViewDesk desk_;
+  ViewState desk_;
 };
 
 TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {

@@ -41,7 +41,7 @@ class SceneCommandsTest : public testing::Test {
   }
 
   SmallScene scene_;
-  ViewDesk desk_;
+  ViewState desk_;
 };
 
 TEST_F(SceneCommandsTest, LightsOfAMixAreTextAndCanBeWritten) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/curve_bounds.h"
-#include "procedurals/placed_procedural.h"
+#include "rib/scene/placed_procedural.h"
 #include "tests/world/furry_scene.h"
 #include "world/world.h"
 

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "procedurals/crowd_placement.h"
+#include "procedurals/crowd/crowd_placement.h"
 #include "tests/support/quiet_job.h"
 #include "world/compose.h"
-#include "world/drawn_characters.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "procedurals/posed_character_skin.h"
+#include "procedurals/skin/posed_character_skin.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
 #include "world/compose.h"

@@ -76,7 +76,7 @@ function chunkRows(chunk) {
   if (!chunk) return [];
   const grown = chunk.growths === 0 ? "kept from an earlier picture" : `grown ${chunk.growths === 1 ? "once" : `${chunk.growths} times`}`;
   return [["chunk", `${chunk.index}: ${chunk.strands} strands, ${grown}`],
-          ["box", `${list(chunk.box[0])} to ${list(chunk.box[1])}`], ["fine boxes", String(chunk.fine_boxes)]];
+          ["box", `${list(chunk.box[0])} to ${list(chunk.box[1])}`], ["fine boxes", String(chunk.segment_cell_bounds)]];
 }
 
 // Replaces the children of `place`; `why`: the answer, or null.

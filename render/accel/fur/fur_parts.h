@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "procedurals/chunk_bounds.h"
+#include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/fur/fur_tree.h"
 
 namespace pelage {

@@ -252,7 +252,7 @@ TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
 }
 
 // Rays inside the box of a chunk, between its strands or ending before them, let nothing grow.
-TEST_F(ChunkAccelTest, RaysThatMeetNoFineBoxLetNothingGrow) {
+TEST_F(ChunkAccelTest, RaysThatMeetNoSegmentCellLetNothingGrow) {
   TestChunks chunks;
   chunks.add_fur(ladder(2), 0);
   const std::vector<ChunkBounds> measured =

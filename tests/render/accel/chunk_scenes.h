@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geom/curve_bounds.h"
-#include "procedurals/segment_parts.h"
+#include "procedurals/bounds/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/embree_accel.h"
 #include "render/accel/part_bounds.h"

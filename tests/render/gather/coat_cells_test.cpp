@@ -112,10 +112,10 @@ TEST_F(CoatCellsTest, StrandsWithoutASkinUseTheirRoots) {
   EXPECT_FALSE(share(cells(free(0.5f)), cells(free(0.67f))));
 }
 
-TEST(KnotKeys, OnlyThinStrandsUseCells) {
+TEST(GatherPointKeys, OnlyThinStrandsUseCells) {
   const RenderScene scene = key_scene::make({});
   const auto same_key = [&](float radius, uint32_t samples) {
-    const KnotKeys keys(scene, samples);
+    const GatherPointKeys keys(scene, samples);
     HitGeometry met;
     met.strand = one_strand({{0, 0, 0}, {0.05f, 0, 0}, {0.1f, 0, 0}}, radius);  // 2.5 pixels long
     Hit a = hit_on(0.5f), b = a;
@@ -123,7 +123,8 @@ TEST(KnotKeys, OnlyThinStrandsUseCells) {
     int same = 0;
     for (uint64_t i = 0; i < 200; ++i) {
       const V2f random(unit_float(hash64(i, 1)), unit_float(hash64(i, 2)));
-      same += key_scene::key_of(keys, a, met, random).knot == key_scene::key_of(keys, b, met, random).knot
+      same += key_scene::key_of(keys, a, met, random).gather_point ==
+                      key_scene::key_of(keys, b, met, random).gather_point
                   ? 1
                   : 0;
     }
@@ -135,12 +136,13 @@ TEST(KnotKeys, OnlyThinStrandsUseCells) {
   GatherParams apart;
   apart.cells = false;
   const RenderScene without = key_scene::make(apart);
-  const KnotKeys keys(without, 1);
+  const GatherPointKeys keys(without, 1);
   HitGeometry met;
   met.strand = one_strand({{0, 0, 0}, {0.1f, 0, 0}}, 1e-4f);
   Hit a = hit_on(0.5f), b = a;
   b.strand_id = a.strand_id + 1;
-  EXPECT_NE(key_scene::key_of(keys, a, met, {0, 0}).knot, key_scene::key_of(keys, b, met, {0, 0}).knot);
+  EXPECT_NE(key_scene::key_of(keys, a, met, {0, 0}).gather_point,
+            key_scene::key_of(keys, b, met, {0, 0}).gather_point);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "render/gather/gather_loop.h"
-#include "render/light/drawn_lights.h"
+#include "render/light/far_light_samples.h"
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
 #include "tests/render/path/impatient.h"
@@ -78,8 +78,8 @@ TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
-  // One light is an environment: 32 bytes per stored point (DrawnLights::bytes()).
-  const size_t most = 3 * tile + 32 * size_t{DrawnLights::kSide} * DrawnLights::kSide;
+  // One light is an environment: 32 bytes per stored point (FarLightSamples::bytes()).
+  const size_t most = 3 * tile + 32 * size_t{FarLightSamples::kSide} * FarLightSamples::kSide;
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(most));
   EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
 
@@ -180,19 +180,19 @@ TEST(GatherIntegrator, TheSamplesOfAllPassesCount) {
   EXPECT_EQ(scene.statistics.samples_rejected, 0);
 }
 
-TEST(GatherIntegrator, CountsKnotsAndTheirSamples) {
+TEST(GatherIntegrator, CountsGatherPointsAndTheirSamples) {
   GatherScene scene;
   scene.render.gather.reuse = false;
-  const KnotStatistics alone = scene.run({}, 1).statistics.knots;
+  const GatherPointStatistics alone = scene.run({}, 1).statistics.gather_points;
   EXPECT_GT(alone.samples, 0);
   EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "no more than the samples of the frame";
-  EXPECT_EQ(alone.knots, alone.samples);
+  EXPECT_EQ(alone.gather_points, alone.samples);
   scene.render.gather.reuse = true;
-  const KnotStatistics shared = scene.run({}, 1).statistics.knots;
+  const GatherPointStatistics shared = scene.run({}, 1).statistics.gather_points;
   EXPECT_EQ(shared.samples, alone.samples);
-  EXPECT_GT(shared.knots, 0);
-  EXPECT_LT(shared.knots, shared.samples / 2);
-  EXPECT_EQ(scene.run({}, 4).statistics.knots.knots, shared.knots);
+  EXPECT_GT(shared.gather_points, 0);
+  EXPECT_LT(shared.gather_points, shared.samples / 2);
+  EXPECT_EQ(scene.run({}, 4).statistics.gather_points.gather_points, shared.gather_points);
 }
 
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {

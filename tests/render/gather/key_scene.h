@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/gather/knot_keys.h"
+#include "render/gather/gather_point_keys.h"
 #include "tests/render/path/path_scene.h"
 
 /// Scenes in which hits are assigned to gather points.
@@ -39,9 +39,10 @@ inline Hit hit_on(float place) {
   return hit;
 }
 
-/// KnotKeys::of() of a thread that has met no strand before.
-inline KnotKey key_of(const KnotKeys& keys, const Hit& hit, const HitGeometry& met, const V2f& random) {
-  RecentStrandKnots recent;
+/// GatherPointKeys::of() of a thread that has met no strand before.
+inline GatherPointKey key_of(const GatherPointKeys& keys, const Hit& hit, const HitGeometry& met,
+                             const V2f& random) {
+  RecentGatherPoints recent;
   return keys.of(hit, met, random, recent);
 }
 

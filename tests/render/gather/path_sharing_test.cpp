@@ -12,9 +12,9 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kPoints = 120, kKnots = 10;
+constexpr uint32_t kPoints = 120, kGatherPoints = 10;
 
-uint32_t knot_of(uint32_t point) { return point % kKnots; }
+uint32_t gather_point_of(uint32_t point) { return point % kGatherPoints; }
 
 void weights_of(uint32_t point, Rgb* weights) {
   for (uint32_t g = 0; g < kLobeGroups; ++g) {
@@ -31,14 +31,15 @@ std::vector<Rgb> radiance_of(uint32_t point) {
 }
 
 /// The light that the points of a gather point scatter, by light and lobe.
-std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t knot) {
+std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t gather_point) {
   std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
-  for (uint32_t p = knot; p < kPoints; p += kKnots) {
+  for (uint32_t p = gather_point; p < kPoints; p += kGatherPoints) {
     Rgb weights[kLobeGroups];
     weights_of(p, weights);
     for (size_t light = 0; light < 2; ++light) {
       for (int g = 0; g < kLobeGroups; ++g) {
-        result[light * kLobeGroups + static_cast<size_t>(g)] += weights[g] * sharing.radiance(knot, light, g);
+        result[light * kLobeGroups + static_cast<size_t>(g)] +=
+            weights[g] * sharing.radiance(gather_point, light, g);
       }
     }
   }
@@ -46,23 +47,23 @@ std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t knot) {
 }
 
 void add(PathSharing& sharing, bool guess, float part, uint64_t trial) {
-  std::vector<uint32_t> zones(kKnots);
-  for (uint32_t k = 0; k < kKnots; ++k) zones[k] = k % 2;
-  sharing.begin(kKnots, 2, 2, guess);
+  std::vector<uint32_t> zones(kGatherPoints);
+  for (uint32_t k = 0; k < kGatherPoints; ++k) zones[k] = k % 2;
+  sharing.begin(kGatherPoints, 2, 2, guess);
   for (uint32_t p = 0; p < kPoints; ++p) {
     Rgb weights[kLobeGroups];
     weights_of(p, weights);
-    sharing.add_weights(knot_of(p), weights);
+    sharing.add_weights(gather_point_of(p), weights);
     if (unit_float(hash64(p, trial, random_use("choice"))) < part) {
-      sharing.add_path(knot_of(p), weights, 1 / part, radiance_of(p));
+      sharing.add_path(gather_point_of(p), weights, 1 / part, radiance_of(p));
     }
   }
   sharing.finish(zones);
 }
 
-std::vector<Rgb> truth_of(uint32_t knot) {
+std::vector<Rgb> truth_of(uint32_t gather_point) {
   std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
-  for (uint32_t p = knot; p < kPoints; p += kKnots) {
+  for (uint32_t p = gather_point; p < kPoints; p += kGatherPoints) {
     Rgb weights[kLobeGroups];
     weights_of(p, weights);
     const std::vector<Rgb> radiance = radiance_of(p);
@@ -77,31 +78,32 @@ std::vector<Rgb> truth_of(uint32_t knot) {
 TEST(PathSharing, IsExactWhenEveryPointHasItsPath) {
   PathSharing sharing;
   add(sharing, true, 1, 0);
-  for (uint32_t knot = 0; knot < kKnots; ++knot) {
-    const std::vector<Rgb> light = light_of(sharing, knot), truth = truth_of(knot);
+  for (uint32_t gather_point = 0; gather_point < kGatherPoints; ++gather_point) {
+    const std::vector<Rgb> light = light_of(sharing, gather_point), truth = truth_of(gather_point);
     for (size_t i = 0; i < truth.size(); ++i) {
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[i][c], truth[i][c], 1e-4f * (1 + truth[i][c])) << knot;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(light[i][c], truth[i][c], 1e-4f * (1 + truth[i][c])) << gather_point;
     }
   }
 }
 
-TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
+TEST(PathSharing, IsRightOnAverageAndTheOtherGatherPointsOfItsZoneMakeItLessNoisy) {
   double variances[2] = {0, 0};
   for (const bool guess : {false, true}) {
-    std::vector<PixelMoments> moments(kKnots * 2 * kLobeGroups);
+    std::vector<PixelMoments> moments(kGatherPoints * 2 * kLobeGroups);
     PathSharing sharing;
     for (uint64_t trial = 0; trial < 4000; ++trial) {
       add(sharing, guess, 0.4f, trial);
-      for (uint32_t knot = 0; knot < kKnots; ++knot) {
-        const std::vector<Rgb> light = light_of(sharing, knot);
-        for (size_t i = 0; i < light.size(); ++i) moments[knot * light.size() + i].add(light[i].y);
+      for (uint32_t gather_point = 0; gather_point < kGatherPoints; ++gather_point) {
+        const std::vector<Rgb> light = light_of(sharing, gather_point);
+        for (size_t i = 0; i < light.size(); ++i) moments[gather_point * light.size() + i].add(light[i].y);
       }
     }
-    for (uint32_t knot = 0; knot < kKnots; ++knot) {
-      const std::vector<Rgb> truth = truth_of(knot);
+    for (uint32_t gather_point = 0; gather_point < kGatherPoints; ++gather_point) {
+      const std::vector<Rgb> truth = truth_of(gather_point);
       for (size_t i = 0; i < truth.size(); ++i) {
-        const PixelMoments& of = moments[knot * truth.size() + i];
-        EXPECT_NEAR(of.mean, truth[i].y, 4.5 * of.error() + 0.01 * truth[i].y) << knot << ", " << i;
+        const PixelMoments& of = moments[gather_point * truth.size() + i];
+        EXPECT_NEAR(of.mean, truth[i].y, 4.5 * of.error() + 0.01 * truth[i].y) << gather_point << ", " << i;
         variances[guess ? 1 : 0] += of.variance();
       }
     }
@@ -113,16 +115,16 @@ TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
 /// to patch k % 2.
 std::vector<Rgb> light_of_patch(const PathSharing& sharing, uint32_t patch) {
   std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
-  for (uint32_t knot = patch; knot < kKnots; knot += 2) {
-    const std::vector<Rgb> light = light_of(sharing, knot);
+  for (uint32_t gather_point = patch; gather_point < kGatherPoints; gather_point += 2) {
+    const std::vector<Rgb> light = light_of(sharing, gather_point);
     for (size_t i = 0; i < result.size(); ++i) result[i] += light[i];
   }
   return result;
 }
 
 std::vector<uint32_t> two_patches() {
-  std::vector<uint32_t> result(kKnots);
-  for (uint32_t k = 0; k < kKnots; ++k) result[k] = k % 2;
+  std::vector<uint32_t> result(kGatherPoints);
+  for (uint32_t k = 0; k < kGatherPoints; ++k) result[k] = k % 2;
   return result;
 }
 
@@ -142,16 +144,16 @@ TEST(PathSharing, BlendingKeepsTheLightOfAPatch) {
   }
 }
 
-TEST(PathSharing, BlendingTakesMostOfTheNoiseOfKnots) {
+TEST(PathSharing, BlendingTakesMostOfTheNoiseOfGatherPoints) {
   double variances[2] = {0, 0};
   for (const bool blended : {false, true}) {
-    std::vector<PixelMoments> moments(kKnots);
+    std::vector<PixelMoments> moments(kGatherPoints);
     PathSharing sharing;
     for (uint64_t trial = 0; trial < 2000; ++trial) {
       add(sharing, true, 0.2f, trial);
       if (blended) sharing.blend(two_patches(), 2);
-      for (uint32_t knot = 0; knot < kKnots; ++knot)
-        moments[knot].add(luminance(sharing.radiance(knot, 0, 0)));
+      for (uint32_t gather_point = 0; gather_point < kGatherPoints; ++gather_point)
+        moments[gather_point].add(luminance(sharing.radiance(gather_point, 0, 0)));
     }
     for (const PixelMoments& of : moments) variances[blended ? 1 : 0] += of.variance();
   }
@@ -161,16 +163,16 @@ TEST(PathSharing, BlendingTakesMostOfTheNoiseOfKnots) {
   EXPECT_GT(variances[1], 0.1 * variances[0]);
 }
 
-TEST(PathSharing, TheMoreOfAPatchsPathsAKnotHasTheMoreItKeepsItsOwn) {
+TEST(PathSharing, TheMoreOfAPatchsPathsAGatherPointHasTheMoreItKeepsItsOwn) {
   const auto radiance_of_first = [](uint32_t paths) {
     const Rgb weights[kLobeGroups] = {Rgb(1), Rgb(0), Rgb(0)};
     PathSharing sharing;
     sharing.begin(2, 1, 1, false);
-    for (uint32_t knot = 0; knot < 2; ++knot) {
-      const Rgb light[] = {Rgb(knot == 0 ? 3.0f : 1.0f)};
+    for (uint32_t gather_point = 0; gather_point < 2; ++gather_point) {
+      const Rgb light[] = {Rgb(gather_point == 0 ? 3.0f : 1.0f)};
       for (uint32_t i = 0; i < paths; ++i) {
-        sharing.add_weights(knot, weights);
-        sharing.add_path(knot, weights, 1, light);
+        sharing.add_weights(gather_point, weights);
+        sharing.add_path(gather_point, weights, 1, light);
       }
     }
     sharing.finish({0, 0});

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/cache/groom_identity.h"
+
+#include "base/error.h"
+#include "base/file_hash.h"
+#include "geom/limit_surface.h"
+#include "groom/cache/growth_identity.h"
+
+namespace pelage {
+namespace {
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  try {
+    return to_string(file_hash(file));
+  } catch (const Error&) {
+    return "missing";
+  }
+}
+
+template <class T>
+void describe(const T& value, const char* key, std::vector<ParameterText>& out) {
+  detail::describe_value(value, key, out);
+}
+
+}  // namespace
+
+GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
+                             const LimitSurface* rest) {
+  add("skin", {{"program", growth_identity()}, {"mesh", rest ? to_string(rest->hash()) : "none"}});
+
+  std::vector<ParameterText> strands;
+  strands.push_back({"seed", std::to_string(seed)});
+  describe(params.strands, "strands", strands);
+  describe(params.density, "density", strands);
+  describe(params.strands_file, "strands_file", strands);
+  describe(params.basis, "basis", strands);
+  describe(params.default_width, "default_width", strands);
+  // `rest` is null for strands that follow no skin.
+  describe(params.attach, "attach", strands);
+  for (const auto& op : stack.operators()) {
+    if (!op->traits().restricts_coverage) continue;
+    for (ParameterText& parameter : op->parameters()) {
+      parameter.key = std::string(op->traits().name) + "." + parameter.key;
+      strands.push_back(std::move(parameter));
+    }
+  }
+  add("strands", strands);
+  add("points", {{"points", std::to_string(params.points)}});
+  for (const auto& op : stack.operators()) add(std::string(op->traits().name), op->parameters());
+}
+
+void GroomIdentity::add(std::string name, const std::vector<ParameterText>& parameters) {
+  GroomStage stage{std::move(name), {}, {}};
+  for (const ParameterText& parameter : parameters) {
+    std::string text = parameter.text;
+    // A file is identified by its contents: its path does not affect the result.
+    for (const std::filesystem::path& file : parameter.files) {
+      const std::string path = file.string(), shown = file.filename().string();
+      for (size_t at = text.find(path); at != std::string::npos; at = text.find(path, at + shown.size()))
+        text.replace(at, path.size(), shown);
+    }
+    stage.inputs.emplace_back(parameter.key, std::move(text));
+    for (const std::filesystem::path& file : parameter.files)
+      stage.inputs.emplace_back("contents of " + file.filename().string(), hash_of_file(file));
+  }
+  ContentHasher hasher;
+  if (!stages_.empty()) hasher.add(stages_.back().hash);
+  hasher.add(stage.name).add(static_cast<uint64_t>(stage.inputs.size()));
+  for (const auto& [key, text] : stage.inputs) hasher.add(key).add(text);
+  stage.hash = hasher.digest();
+  stages_.push_back(std::move(stage));
+}
+
+}  // namespace pelage

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/hash.h"
+#include "groom/coat/groom_params.h"
+#include "groom/operators/operator_stack.h"
+
+namespace pelage {
+
+/// One step of making a coat. Lists all its inputs as readable text, so that a change can be shown to the
+/// user.
+struct GroomStage {
+  std::string name;  ///< "skin", "strands", "points", or the name of an operator
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< name and value of each: "amount", "0.6"
+  ContentHash hash;  ///< hash of this stage and of all stages before it
+};
+
+/// The inputs of a groom's strands, stage by stage: skin, strands, points, then each operator. Equal hashes
+/// mean equal strands. Files are identified by their contents, not by their paths.
+class GroomIdentity {
+ public:
+  static constexpr size_t kSkin = 0, kStrands = 1, kPoints = 2, kFirstOperator = 3;
+
+  /// `seed`: hash of the groom's seed and name. A file that cannot be read is recorded as such without an
+  /// error; the code that needs the file reports the error.
+  GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
+                const LimitSurface* rest);
+
+  const std::vector<GroomStage>& stages() const { return stages_; }
+  const GroomStage& of_operator(size_t i) const { return stages_[kFirstOperator + i]; }
+  /// Hash of the whole groom: the hash of its last stage.
+  const ContentHash& whole() const { return stages_.back().hash; }
+
+ private:
+  void add(std::string name, const std::vector<ParameterText>& parameters);
+
+  std::vector<GroomStage> stages_;
+};
+
+}  // namespace pelage

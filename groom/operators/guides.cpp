@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/operators/guides.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/job.h"
+#include "geom/limit_surface.h"
+#include "groom/operators/guide_set.h"
+#include "groom/strands/curve_basis_names.h"
+#include "groom/strands/rotation.h"
+#include "groom/strands/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kMaxNeighbours = 8;
+
+struct Weights {
+  std::array<RootGrid::Neighbour, kMaxNeighbours + 1> guide;
+  std::array<float, kMaxNeighbours> weight;
+  int count = 0;
+};
+
+/// The guides near a position and their weights, which sum to 1; empty when no guide is near.
+Weights find_weights(const RootGrid& grid, const V3f& position, const V3f& normal, int neighbours) {
+  Weights w;
+  const int found = grid.nearest(position, normal, neighbours + 1, w.guide.data());
+  w.count = std::min(found, neighbours);
+  const float radius = found > neighbours ? w.guide[static_cast<size_t>(neighbours)].distance : grid.radius();
+  float total = 0;
+  for (int i = 0; i < w.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const float x = radius > 0 ? std::max(0.0f, 1.0f - w.guide[k].distance / radius) : 0.0f;
+    w.weight[k] = x * x;
+    total += w.weight[k];
+  }
+  // All equally far: equal weights.
+  for (int i = 0; i < w.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    w.weight[k] = total > 1e-12f ? w.weight[k] / total : 1.0f / static_cast<float>(w.count);
+  }
+  return w;
+}
+
+}  // namespace
+
+const Schema<GuidesParams>& GuidesParams::schema() {
+  static const Schema<GuidesParams> table = [] {
+    Schema<GuidesParams> s("guides", "Shapes strands like the nearby guide strands of a file.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - guides: {file: guides.hair, neighbours: 4})");
+    s.set_picture("Left: straight strands. Right: strands shaped by the guides of a file.");
+    s.key("file", &GuidesParams::file,
+          {.help = "Guide file (.hair, .tfx) in the rest space of the skin", .required = true});
+    s.key("basis", &GuidesParams::basis,
+          {.help = "How control points of the file define curves", .default_text = "the basis in the file"});
+    s.key("scale", &GuidesParams::scale,
+          {.help = "Factor on the file's positions", .min = 0, .above_min = true});
+    s.key("translate", &GuidesParams::translate,
+          {.unit = "scene units", .help = "Offset of the file's positions, added after `scale`"});
+    s.key("neighbours", &GuidesParams::neighbours,
+          {.help = "Number of guides that shape a strand", .min = 1, .max = kMaxNeighbours});
+    s.key("radius", &GuidesParams::radius,
+          {.unit = "scene units",
+           .help = "Maximum distance from a guide to a strand that it shapes",
+           .min = 0,
+           .above_min = true,
+           .default_text = "4 times the median distance between guides"});
+    s.key(
+        "growth_radius", &GuidesParams::spread,
+        {.unit = "scene units",
+         .help =
+             "Strands grow only within this distance of a guide, and more densely where more guides are near",
+         .min = 0,
+         .above_min = true,
+         .default_text = "guides do not limit where strands grow",
+         .old_names = {"spread"}});
+    s.key(
+        "amount", &GuidesParams::amount,
+        {.help = "How far strands take the shape of the guides: 0 not at all, 1 fully", .min = 0, .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+void Guides::prepare(const PrepareContext& context) {
+  if (!context.rest)
+    throw Error(ErrorKind::kInput, context.position, "the operator guides needs strands that grow on a skin");
+  params_.amount = params_.amount.with_textures(context.textures);
+  guides_ = std::make_shared<const GuideSet>(
+      GuideFile{params_.file, params_.basis, params_.scale, params_.translate}, context);
+  const float automatic =
+      guides_->spacing() > 0 ? 4.0f * guides_->spacing() : context.rest->control_bounds().size().length();
+  near_ = RootGrid(guides_->roots(), guides_->normals(), params_.radius.value_or(automatic));
+  if (params_.spread) covered_ = RootGrid(guides_->roots(), guides_->normals(), *params_.spread);
+  charge_ = std::make_shared<const MemoryCharge>(
+      context.job.ledger, MemoryTag::kGrooms,
+      static_cast<int64_t>(guides_->bytes() + near_.bytes() + covered_.bytes()));
+}
+
+float Guides::coverage(const V3f& rest_position, const V3f& normal) const {
+  if (!params_.spread) return 1;
+  float total = 0;
+  covered_.for_each_near(rest_position, normal, [&](uint32_t, float distance2) {
+    const float x = 1.0f - distance2 / (covered_.radius() * covered_.radius());
+    total += x * x;
+  });
+  return total;
+}
+
+void Guides::apply(StrandBatch& batch) const {
+  const int points = batch.point_count();
+  PELAGE_CHECK(points == guides_->points());
+  StrandRow amount;
+  evaluate(params_.amount, batch, 0, amount);
+  std::vector<V3f> shape(static_cast<size_t>(points));
+  for (size_t s = 0; s < batch.count; ++s) {
+    const V3f normal = vector_at(batch.rest.normal, s);
+    const Weights weights =
+        find_weights(near_, vector_at(batch.rest.position, s), normal, params_.neighbours);
+    if (weights.count == 0) continue;
+    std::fill(shape.begin(), shape.end(), V3f(0));
+    float length = 0;
+    for (int i = 0; i < weights.count; ++i) {
+      const size_t guide = weights.guide[static_cast<size_t>(i)].index;
+      const float weight = weights.weight[static_cast<size_t>(i)];
+      const V3f& from = guides_->normals()[guide];
+      const Rotation rotation = rotation_between(from, normal, any_perpendicular(from));
+      const float sine = std::sin(rotation.angle), cosine = std::cos(rotation.angle);
+      for (int p = 1; p < points; ++p) {
+        const V3f& v = guides_->offset(guide, p);
+        shape[static_cast<size_t>(p)] += (v * cosine + rotation.axis.cross(v) * sine +
+                                          rotation.axis * (rotation.axis.dot(v) * (1 - cosine))) *
+                                         weight;
+      }
+      length += guides_->length(guide) * weight;
+    }
+    // A mean of different directions is shorter than the mean of the lengths.
+    float mixed = 0;
+    for (int p = 1; p < points; ++p)
+      mixed += (shape[static_cast<size_t>(p)] - shape[static_cast<size_t>(p - 1)]).length();
+    const float scale = mixed > 0 ? std::clamp(length / mixed, 1.0f, 2.0f) : 1.0f;
+    const float k = std::clamp(amount[s], 0.0f, 1.0f);
+    const V3f base = batch.offset(0, s);
+    for (int p = 1; p < points; ++p) {
+      const V3f here = batch.offset(p, s);
+      const V3f there = base + batch.from_rest(s, shape[static_cast<size_t>(p)]) * (scale * batch.scale);
+      batch.set_offset(p, s, here + (there - here) * k);
+    }
+  }
+}
+
+bool Guides::all_strands_have_guides() const {
+  const auto [low, high] = params_.amount.value_range();
+  return low >= 1 && params_.spread && *params_.spread <= near_.radius();
+}
+
+StrandReach Guides::reach_after(const StrandReach& before) const {
+  StrandReach after = before;
+  const float longest = guides_->longest() * 1.00001f;
+  after.length = all_strands_have_guides() ? longest : std::max(before.length, longest);
+  after.distance = all_strands_have_guides() ? longest : std::max(before.distance, longest);
+  after.lean = std::numbers::pi_v<float>;
+  return after;
+}
+
+}  // namespace pelage

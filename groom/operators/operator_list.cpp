@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/operators/operator_list.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "base/nearest_name.h"
+#include "groom/operators/bend.h"
+#include "groom/operators/clump.h"
+#include "groom/operators/color.h"
+#include "groom/operators/comb.h"
+#include "groom/operators/curl.h"
+#include "groom/operators/frizz.h"
+#include "groom/operators/guides.h"
+#include "groom/operators/length.h"
+#include "groom/operators/noise.h"
+#include "groom/operators/push_out.h"
+#include "groom/operators/width.h"
+
+namespace pelage {
+namespace {
+
+/// Data that the reader needs about each operator.
+struct OperatorKind {
+  const char* name;
+  std::shared_ptr<const Operator> (*read)(const Value&, Problems&);
+  std::unique_ptr<Operator> (*clone)(const Operator&);
+  const SchemaInfo& (*schema)();
+};
+
+template <class Op>
+OperatorKind kind_of() {
+  return {Op::kName,
+          [](const Value& value, Problems& problems) -> std::shared_ptr<const Operator> {
+            typename Op::Params params;
+            // `- color:` with nothing behind it means the defaults.
+            if (!value.is_null() && !Op::Params::schema().read(value, params, problems)) return nullptr;
+            return std::make_shared<Op>(std::move(params));
+          },
+          [](const Operator& prototype) -> std::unique_ptr<Operator> {
+            return std::make_unique<Op>(static_cast<const Op&>(prototype));
+          },
+          []() -> const SchemaInfo& { return Op::Params::schema(); }};
+}
+
+const std::vector<OperatorKind>& kinds() {
+  static const std::vector<OperatorKind> table{kind_of<Length>(), kind_of<Comb>(),   kind_of<Bend>(),
+                                               kind_of<Clump>(),  kind_of<Curl>(),   kind_of<Frizz>(),
+                                               kind_of<Noise>(),  kind_of<Guides>(), kind_of<PushOut>(),
+                                               kind_of<Width>(),  kind_of<Color>()};
+  return table;
+}
+
+bool read_item(const Value& value, OperatorList::Item& item, Problems& problems) {
+  if (!value.is_map() || value.entries().size() != 1) {
+    problems.add(value.position(), "expected one operator, a name with its keys, got " + value.describe());
+    return false;
+  }
+  const Value::Entry& entry = value.entries().front();
+  const auto& table = kinds();
+  const auto kind =
+      std::find_if(table.begin(), table.end(), [&](const auto& k) { return k.name == entry.key; });
+  if (kind == table.end()) {
+    std::vector<std::string> names;
+    for (const OperatorKind& k : table) names.push_back(k.name);
+    problems.add(entry.key_position, "unknown operator '" + entry.key + "'" + did_you_mean(entry.key, names));
+    return false;
+  }
+  item = {entry.key, entry.key_position, kind->read(entry.value, problems), kind->clone};
+  return item.prototype != nullptr;
+}
+
+}  // namespace
+
+OperatorList::Item default_operator(std::string_view name) {
+  const auto& table = kinds();
+  const auto kind = std::find_if(table.begin(), table.end(), [&](const auto& k) { return k.name == name; });
+  PELAGE_CHECK(kind != table.end());
+  Problems problems;
+  return {kind->name, {}, kind->read(Value(), problems), kind->clone};
+}
+
+bool ValueReader<OperatorList>::read(const Value& value, const KeyOptions&, OperatorList& out,
+                                     Problems& problems) {
+  if (!value.is_list()) {
+    problems.add(value.position(), "expected a list of operators, got " + value.describe());
+    return false;
+  }
+  OperatorList list;
+  bool good = true;
+  for (const Value& item : value.items()) {
+    list.items.emplace_back();
+    good &= read_item(item, list.items.back(), problems);
+  }
+  if (good) out = std::move(list);
+  return good;
+}
+
+std::vector<const SchemaInfo*> ValueReader<OperatorList>::blocks() {
+  std::vector<const SchemaInfo*> result;
+  for (const OperatorKind& kind : kinds()) result.push_back(&kind.schema());
+  return result;
+}
+
+void ValueReader<OperatorList>::visit_blocks(Value& value, const BlockVisitor& visit) {
+  for (Value& item : value.items()) {
+    for (Value::Entry& entry : item.entries()) {
+      for (const OperatorKind& kind : kinds()) {
+        if (kind.name == entry.key) visit(entry.value, kind.schema());
+      }
+    }
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "geom/strands.h"
+#include "geom/tessellation.h"
+#include "render/accel/accel.h"
+#include "render/camera/camera.h"
+#include "render/gather/coat_cells.h"
+#include "render/gather/strand_gather_points.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Identifies a gather point, its patch and its zone. A gather point is a position on a strand or skin, or a
+/// cell of a coat (see CoatCells). Visible points near the same gather point share light. A patch is a part
+/// of a coat, a few pixels long and wide, or a single gather point of a skin. About the same indirect light
+/// arrives at all gather points of a patch. A zone is one of eight depth ranges of a coat, or a whole skin.
+struct GatherPointKey {
+  uint64_t gather_point = 0;
+  uint64_t patch = 0;
+  uint64_t zone = 0;
+};
+
+/// Assigns the hits of a frame to gather points.
+///
+/// A strand has 2^level + 1 gather points, at equal distances of its parameter. The level follows from the
+/// length of the strand in the picture when the shutter opens. Each face of a skin has a grid of gather
+/// points; the levels along its two parameters follow from the size of the face in the picture. A hit is
+/// assigned at random to one of the gather points around it, with its weight in linear interpolation as
+/// probability. On average, light is therefore interpolated linearly between gather points. If a strand is so
+/// thin that fewer than four samples would see one of its gather points, its hits are assigned to the cells
+/// of its coat instead.
+///
+/// Gather points on strands that grow in the same cube of the skin (CoatCells::patch()) are in one patch if
+/// they lie in the same eighth of their strands. On strands with more than 17 gather points, each pair of
+/// neighbouring gather points takes the place of an eighth.
+///
+/// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the gather points of one
+/// zone within the same tile of the picture, about the same fraction of a light arrives.
+///
+/// A key depends only on the camera, the hit and the random numbers. Thread safety: const members may be
+/// called from any thread.
+class GatherPointKeys {
+ public:
+  /// Keeps a reference to `scene`. `samples`: max samples per pixel that are rendered at once.
+  GatherPointKeys(const RenderScene& scene, uint32_t samples);
+
+  /// Returns the gather point that a hit is assigned to. `random`: two random numbers in [0, 1), which select
+  /// one of the gather points around the hit.
+  /// `recent`: of the calling thread.
+  GatherPointKey of(const Hit& hit, const HitGeometry& met, const V2f& random,
+                    RecentGatherPoints& recent) const;
+
+ private:
+  StrandGatherPoints gather_points_of(const Hit& hit, const Strands& strand) const;
+  GatherPointKey on_strand(const Hit& hit, const Strands& strand, const StrandGatherPoints& gather_points,
+                           const V2f& random) const;
+  GatherPointKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
+
+  const Camera& camera_;
+  const GatherParams& params_;
+  CoatCells cells_;
+};
+
+}  // namespace pelage

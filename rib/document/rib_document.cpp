@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rib/document/rib_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/nearest_name.h"
+#include "rib/document/rib_values.h"
+#include "rib/scene/rib_reading.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kMaxFrames = 10'000;
+
+/// Position, target and up vector of a camera matrix, and half the height of the picture at distance 1.
+struct Pose {
+  V3f position, target, up;
+};
+
+Pose pose_of(const M44f& to_camera) {
+  Imath::M44d inverse;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) inverse[i][j] = to_camera[i][j];
+  }
+  inverse.invert();
+  V3d position, forward, up;
+  inverse.multVecMatrix(V3d(0), position);
+  inverse.multDirMatrix(V3d(0, 0, 1), forward);
+  inverse.multDirMatrix(V3d(0, 1, 0), up);
+  // A target as far as the origin, because coordinates of points near the camera would be rounded.
+  const double distance = std::max(1.0, position.length());
+  return {V3f(position), V3f(position + forward.normalized() * distance), V3f(up.normalized())};
+}
+
+/// Makes the blocks of a file's camera and picture.
+class PictureBlocks {
+ public:
+  PictureBlocks(const std::filesystem::path& path, std::vector<Problem>& warnings)
+      : at_{path.string(), 1, 1}, warnings_(warnings) {}
+
+  void add_frame(double frame, const RibCamera& camera) {
+    const std::pair<int, int> size = camera.format.value_or(std::pair(640, 480));
+    width_ = size.first;
+    height_ = size.second;
+    std::vector<double> times;
+    for (const auto& sample : camera.to_camera.samples()) times.push_back(sample.first);
+    if (!camera.to_camera.moves()) times = {0};
+    for (const double time : times) {
+      frames_.push_back(frame + time);
+      poses_.push_back(pose_of(camera.to_camera.at(time)));
+      fovs_.push_back(vertical_fov(camera));
+    }
+    keys_ = std::max(keys_, times.size());
+    if (poses_.size() == times.size()) first_ = camera;
+  }
+
+  Value camera() const {
+    Value block = Value::map(at_, {});
+    add_keyed(block, "position", [&](size_t i) { return rib_vector(at_, poses_[i].position); });
+    add_keyed(block, "look_at", [&](size_t i) { return rib_vector(at_, poses_[i].target); });
+    add_keyed(block, "up", [&](size_t i) { return rib_vector(at_, poses_[i].up); });
+    add_keyed(block, "fov", [&](size_t i) { return rib_number(at_, fovs_[i]); });
+    const V2f shutter = first_.shutter.value_or(V2f(0));
+    add_entry(block, "shutter", Value::list(at_, {rib_number(at_, shutter.x), rib_number(at_, shutter.y)}));
+    if (keys_ > 2)
+      add_entry(block, "motion_keys", rib_number(at_, static_cast<double>(std::min<size_t>(keys_, 64))));
+    if (first_.lens) {
+      Value lens = Value::map(at_, {});
+      add_entry(lens, "f_stop", rib_number(at_, first_.lens->x));
+      add_entry(lens, "focal_length", rib_number(at_, first_.lens->y));
+      add_entry(lens, "focus_distance", rib_number(at_, first_.lens->z));
+      add_entry(block, "lens", std::move(lens));
+    }
+    return block;
+  }
+
+  Value image() const {
+    Value block = Value::map(at_, {});
+    add_entry(block, "width", rib_number(at_, width_));
+    add_entry(block, "height", rib_number(at_, height_));
+    return block;
+  }
+
+  std::optional<Value> samples() const {
+    if (!first_.pixel_samples) return {};
+    const double count = std::round(double(first_.pixel_samples->x) * first_.pixel_samples->y);
+    Value block = Value::map(at_, {});
+    add_entry(block, "samples", rib_number(at_, std::clamp(count, 1.0, 1e6)));
+    return block;
+  }
+
+ private:
+  template <class Make>
+  void add_keyed(Value& block, const char* key, const Make& make) const {
+    const auto differs = [&](size_t i) {
+      return poses_[i].position != poses_[0].position || poses_[i].target != poses_[0].target ||
+             poses_[i].up != poses_[0].up || fovs_[i] != fovs_[0];
+    };
+    bool moves = false;
+    for (size_t i = 1; i < poses_.size(); ++i) moves |= differs(i);
+    if (!moves) {
+      add_entry(block, key, make(0));
+      return;
+    }
+    Value frames = Value::map(at_, {}), keyed = Value::map(at_, {});
+    for (size_t i = 0; i < poses_.size(); ++i) {
+      if (i == 0 || frames_[i] > frames_[i - 1])
+        add_entry(frames, fmt::format("{:.9g}", frames_[i]), make(i));
+    }
+    add_entry(keyed, "keys", std::move(frames));
+    add_entry(block, key, std::move(keyed));
+  }
+
+  double vertical_fov(const RibCamera& camera) {
+    const double aspect = camera.frame_aspect.value_or(
+        static_cast<float>(width_) / static_cast<float>(height_) * camera.pixel_aspect.value_or(1.0f));
+    double half_height = aspect >= 1 ? 1 : 1 / aspect;
+    if (camera.screen_window) {
+      const auto& [left, right, bottom, top] = *camera.screen_window;
+      half_height = 0.5 * (double(top) - bottom);
+      const double size = double(right) - left + top - bottom;
+      if (std::abs(double(left) + right) + std::abs(double(bottom) + top) > 1e-4 * size)
+        warn("the middle of ScreenWindow is not (0, 0), which is not supported; the picture is moved");
+    }
+    if (std::abs(aspect * height_ / width_ - 1) > 1e-4) warn("pixels that are not square are not supported");
+    const double half = std::tan(double(camera.fov) * std::numbers::pi / 360) * half_height;
+    return std::atan(half) * 360 / std::numbers::pi;
+  }
+
+  void warn(const char* message) {
+    if (!warned_) warnings_.push_back({at_, message});
+    warned_ = true;
+  }
+
+  const SourcePosition at_;
+  std::vector<Problem>& warnings_;
+  bool warned_ = false;
+  int width_ = 640, height_ = 480;
+  size_t keys_ = 0;
+  std::vector<double> frames_;
+  std::vector<Pose> poses_;
+  std::vector<double> fovs_;
+  RibCamera first_;
+};
+
+/// Adds the entries of `from` that `to` does not have.
+void add_missing(Value& to, Value from) {
+  for (Value::Entry& entry : from.entries()) {
+    if (!to.find(entry.key)) to.entries().push_back(std::move(entry));
+  }
+}
+
+Value option_block(const RibScene& rib, const char* name, const SourcePosition& at) {
+  const auto option = rib.options.find(name);
+  return option == rib.options.end() ? Value::map(at, {}) : rib_block(option->second.front());
+}
+
+RibScene read_description(const std::filesystem::path& path, const std::optional<int>& frame, bool mirror,
+                          const RibUse& use, size_t max_request_bytes) {
+  RibReadOptions options;
+  options.frame = frame;
+  options.geometry = false;
+  options.mirror_left_handed = mirror;
+  options.programs = use.programs;
+  options.max_request_bytes = max_request_bytes;
+  return read_rib(path, options);
+}
+
+RibMaterials materials_of(const RibUse& use) {
+  return RibMaterials(use.materials.empty() ? RibMaterialTable() : RibMaterialTable(use.materials));
+}
+
+void add_materials_and_lights(const RibScene& rib, RibMaterials own, Value& document, Value& table,
+                              std::vector<Problem>& warnings) {
+  const SourcePosition at = document.position();
+  Value materials = Value::map(at, {}), lights = Value::map(at, {});
+  for (const RibMaterial& material : rib.materials) {
+    add_entry(materials, material.name, own.material(material, warnings));
+    add_entry(table, material.name, rib_text(at, material.name));
+  }
+  own.finish(warnings);
+  for (const RibLight& light : rib.lights) {
+    if (std::optional<Value> block = rib_light(light, warnings))
+      add_entry(lights, light.name, std::move(*block));
+  }
+  if (!materials.entries().empty()) add_entry(document, "materials", std::move(materials));
+  if (!lights.entries().empty()) add_entry(document, "lights", std::move(lights));
+}
+
+}  // namespace
+
+bool is_rib(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".rib") || name.ends_with(".rib.gz");
+}
+
+Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t max_request_bytes,
+                   std::vector<Problem>& warnings) {
+  const SourcePosition at{path.string(), 1, 1};
+  RibScene rib = read_description(path, {}, true, use, max_request_bytes);
+  if (!rib.camera.stated)
+    throw Error(ErrorKind::kInput, {path.string(), 0, 0},
+                "the file has no WorldBegin, and so no camera; use it in a scene: "
+                "archives: {name: {rib: " +
+                    path.filename().string() + "}}");
+  warnings.insert(warnings.end(), rib.warnings.begin(), rib.warnings.end());
+  std::vector<int> frames = rib.frames;
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  if (frames.size() > kMaxFrames)
+    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, fmt::format("more than {} frames", kMaxFrames));
+
+  PictureBlocks picture(path, warnings);
+  if (frames.size() < 2) picture.add_frame(frames.empty() ? 1 : frames.front(), rib.camera);
+  std::string list;
+  for (const int frame : frames) {
+    list += (list.empty() ? "" : ",") + std::to_string(frame);
+    if (frames.size() > 1)
+      picture.add_frame(frame, read_description(path, frame, true, use, max_request_bytes).camera);
+  }
+  Value document = Value::map(at, {});
+  add_entry(document, "pelage", rib_number(at, 1));
+  if (!list.empty()) add_entry(document, "frames", rib_text(at, list));
+  add_entry(document, "camera", picture.camera());
+  for (const char* name : {"units", "image", "render"}) {
+    Value block = name == std::string_view("image") ? picture.image() : Value::map(at, {});
+    if (std::optional<Value> samples = picture.samples(); samples && name == std::string_view("render"))
+      block = std::move(*samples);
+    add_missing(block, option_block(rib, name, at));
+    if (!block.entries().empty()) add_entry(document, name, std::move(block));
+  }
+  Value table = Value::map(at, {}), archive = Value::map(at, {}), archives = Value::map(at, {});
+  add_materials_and_lights(rib, materials_of(use), document, table, warnings);
+  add_entry(archive, "rib", rib_text(at, path.filename().string()));
+  if (!table.entries().empty()) add_entry(archive, "materials", std::move(table));
+  const std::string name = path.filename().string();
+  add_entry(archives, name.substr(0, name.find(".rib")), std::move(archive));
+  add_entry(document, "archives", std::move(archives));
+  return document;
+}
+
+namespace {
+
+/// Of the `materials` that a scene gives an archive.
+void warn_of_unknown_surfaces(const Value& table, const RibScene& rib, std::vector<Problem>& warnings) {
+  std::vector<std::string> names;
+  for (const RibMaterial& material : rib.materials) names.push_back(material.name);
+  for (const Value::Entry& entry : table.entries()) {
+    if (std::find(names.begin(), names.end(), entry.key) == names.end())
+      warnings.push_back(
+          {entry.key_position, "the archive has no surface " + quote(entry.key) + suggest(entry.key, names)});
+  }
+}
+
+}  // namespace
+
+void add_archive_materials(Value& document, const RibUse& use, size_t max_request_bytes,
+                           std::vector<Problem>& warnings) {
+  RibMaterials own_materials = materials_of(use);
+  Value* archives = document.find("archives");
+  if (!archives || !archives->is_map()) {
+    own_materials.finish(warnings);
+    return;
+  }
+  Value added = Value::map(archives->position(), {});
+  for (Value::Entry& entry : archives->entries()) {
+    const Value* file = entry.value.find("rib");
+    if (!file || !file->is_scalar() || file->text().empty()) continue;  // the schema reports it
+    const SourcePosition named_at = file->position();  // a copy: `file` is an entry of a map that grows below
+    const std::filesystem::path folder = std::filesystem::path(named_at.file).parent_path();
+    const bool by_flag = named_at.line == 0;
+    std::filesystem::path path = by_flag ? std::filesystem::path(file->text()) : folder / file->text();
+    RibScene rib;
+    try {
+      rib = read_description(path, {}, false, use, max_request_bytes);
+    } catch (const Error& error) {
+      if (error.problems().size() != 1 || error.problems()[0].position.line > 0) throw;
+      throw Error(ErrorKind::kInput, named_at, error.what());
+    }
+    warnings.insert(warnings.end(), rib.warnings.begin(), rib.warnings.end());
+    if (!entry.value.find("materials")) add_entry(entry.value, "materials", Value::map(named_at, {}));
+    Value* table = entry.value.find("materials");
+    if (!table->is_map()) continue;
+    warn_of_unknown_surfaces(*table, rib, warnings);
+    for (const RibMaterial& material : rib.materials) {
+      own_materials.note(material);
+      if (table->find(material.name)) continue;
+      const std::string name = entry.key + "." + material.name;
+      add_entry(*table, material.name, rib_text(named_at, name));
+      const Value* own = document.find("materials");
+      if (!own || !own->find(name)) add_entry(added, name, own_materials.material(material, warnings));
+    }
+  }
+  own_materials.finish(warnings);
+  if (added.entries().empty()) return;
+  if (!document.find("materials")) add_entry(document, "materials", Value::map(added.position(), {}));
+  Value* materials = document.find("materials");
+  if (!materials->is_map()) return;
+  for (Value::Entry& entry : added.entries()) materials->entries().push_back(std::move(entry));
+}
+
+}  // namespace pelage

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rib/host/scene_rib.h"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/version.h"
+#include "rib/host/camera_rib.h"
+#include "rib/host/mean_color.h"
+#include "rib/host/shading_rib.h"
+#include "rib/host/skin_rib.h"
+#include "rib/host/yaml_text.h"
+#include "world/frame_coats.h"
+#include "world/frames.h"
+
+namespace pelage {
+namespace {
+
+Value document_of(const SceneRibSource& source) {
+  Problems problems;
+  RenamedKeys renamed{SceneDescription::schema()};
+  std::optional<Value> document = load_document(source.path, source.overrides, problems, &renamed);
+  problems.throw_if_any();
+  if (!document) throw Error(ErrorKind::kInput, source.path.string() + ": changed while it was read");
+  make_paths_absolute(*document, SceneDescription::schema());
+  return std::move(*document);
+}
+
+std::string absolute_text(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+/// A box around everything in a frame.
+Box3f content_of(const FrameParts& parts) {
+  Box3f box;
+  for (const FrameSkin& skin : parts.skins) box.extendBy(skin.posed->bound(BoundSpan::kFrame));
+  for (const FrameCoat& coat : parts.coats) {
+    const V3f reach(coat.coat->reach() * coat.skin->scale() * std::max(1.0f, coat.skin->length()));
+    const Box3f skin = coat.skin->bound(BoundSpan::kFrame);
+    if (skin.isEmpty()) continue;
+    box.extendBy(skin.min - reach);
+    box.extendBy(skin.max + reach);
+  }
+  return box;
+}
+
+class SceneRibWriter {
+ public:
+  SceneRibWriter(const std::filesystem::path& output, const SceneRibSource& source,
+                 const SceneRibOptions& options, const Job& job)
+      : output_(output),
+        source_(source),
+        options_(options),
+        job_(job),
+        document_(document_of(source)),
+        textures_(job.ledger, &job.progress) {}
+
+  std::vector<std::filesystem::path> write() {
+    std::vector<std::filesystem::path> paths;
+    const std::vector<int>& frames = source_.scene.frames.frames;
+    const bool one_file = !has_frame_pattern(output_.filename().string());
+    std::optional<RibFile> file;
+    for (size_t i = 0; i < frames.size(); ++i) {
+      if (!file) {
+        paths.push_back(one_file ? output_
+                                 : output_.parent_path() /
+                                       frame_file_name(output_.filename().string(), frames[i]));
+        file.emplace(paths.back(), options_.format);
+        file->writer().comment(fmt::format("#Creator pelage {}", version()));
+        file->writer().request("version").number(3.04f);
+      }
+      write_frame(file->writer(), frames[i], paths.back());
+      if (one_file && i + 1 < frames.size()) continue;
+      file->commit();
+      file.reset();
+    }
+    return paths;
+  }
+
+ private:
+  void write_options(RibWriter& rib) const {
+    const std::string folder = absolute_text(output_).substr(0, absolute_text(output_).rfind('/') + 1);
+    rib.request("Option").text("searchpath").parameter("string archive").texts({folder + ":.:@"});
+    for (const char* name : {"units", "image", "render"}) {
+      const Value* block = document_.find(name);
+      if (!block || !block->is_map()) continue;
+      rib.request("Option").text("pelage").parameter(std::string("string ") + name);
+      rib.texts({yaml_text(*block)});
+    }
+  }
+
+  void write_frame(RibWriter& rib, int frame, const std::filesystem::path& path) {
+    const FrameParts parts = pose_frame(source_.scene, source_.assets, frame, job_);
+    rib.request("FrameBegin").integer(frame);
+    write_options(rib);
+    std::string picture = path.filename().string();
+    picture = picture.substr(0, picture.find(".rib"));
+    if (!has_frame_pattern(output_.filename().string()) && source_.scene.frames.frames.size() > 1)
+      picture += fmt::format(".{:04}", frame);
+    write_camera(rib, source_.scene, frame, content_of(parts), picture + ".exr");
+    rib.request("WorldBegin");
+    write_lights(rib, source_.scene, document_, frame);
+    for (const FrameSkin& skin : parts.skins) write_skin_part(rib, skin);
+    for (const FrameCoat& coat : parts.coats) {
+      job_.check_stop();
+      write_coat(rib, coat, frame, path);
+    }
+    rib.request("WorldEnd");
+    rib.request("FrameEnd");
+  }
+
+  /// The mean colour of a skin's material.
+  Rgb skin_color(const FrameSkin& skin) {
+    const auto [known, is_new] = skin_colors_.try_emplace({skin.skin, skin.material});
+    if (is_new) {
+      const MaterialParams material =
+          with_textures(source_.scene.materials.find(skin.material)->value, textures_);
+      known->second = std::visit(
+          [&](const auto& m) { return mean_color(m.color, *source_.assets.skins.at(skin.skin).rest); },
+          material);
+    }
+    return known->second;
+  }
+
+  void begin_part(RibWriter& rib, const std::string& name, const std::string& material, const Rgb& tint,
+                  const std::optional<Rgb>& mean) const {
+    rib.request("AttributeBegin");
+    rib.request("Attribute").text("identifier").parameter("string name").texts({name});
+    if (tint != Rgb(1))
+      rib.request("Attribute").text("pelage").parameter("color tint").numbers({tint.x, tint.y, tint.z});
+    write_material(rib, source_.scene, document_, material, tint, mean);
+  }
+
+  void write_skin_part(RibWriter& rib, const FrameSkin& skin) {
+    const SkinParams& params = source_.scene.skins.find(skin.skin)->value;
+    begin_part(rib, skin.name, skin.material, skin.tint, skin_color(skin));
+    write_skin(rib, source_.assets.skins.at(skin.skin).cage, params.scheme, params.boundary, skin.cages.cages,
+               motion_times(source_.scene.camera, static_cast<int>(skin.cages.cages.size())));
+    rib.request("AttributeEnd");
+  }
+
+  void write_coat(RibWriter& rib, const FrameCoat& coat, int frame, const std::filesystem::path& path) const {
+    const bool procedural = options_.coats == RibCoats::kProcedurals;
+    const CoatTree tree(coat, procedural || options_.lod ? coat.lod : std::nullopt);
+    const std::vector<float> times = motion_times(source_.scene.camera, coat.skin->motion_keys());
+    begin_part(rib, coat.character + "." + coat.groom, coat.material, coat.tint, {});
+    if (procedural) {
+      HairArguments arguments;
+      arguments.scene = absolute_text(source_.path);
+      arguments.overrides = source_.overrides;
+      std::erase_if(arguments.overrides, [](const Override& one) { return one.key == "frames"; });
+      arguments.frame = frame;
+      arguments.character = coat.character;
+      arguments.coat = coat.groom;
+      arguments.scene_camera = source_.scene.render.lod.enabled;
+      write_procedural(rib, tree, arguments, job_);
+    } else if (options_.coats == RibCoats::kExpanded) {
+      write_expanded(rib, tree, times, job_);
+    } else {
+      const std::string stem = path.filename().string();
+      const std::filesystem::path folder = path.parent_path() / (stem.substr(0, stem.find(".rib")) + "_hair");
+      const std::string name = fmt::format("{}.{}.{}", coat.character, coat.groom, frame);
+      write_archives(rib, tree, times, folder / name, path.parent_path(), options_.format, job_);
+    }
+    rib.request("AttributeEnd");
+  }
+
+  const std::filesystem::path output_;
+  const SceneRibSource& source_;
+  const SceneRibOptions& options_;
+  const Job& job_;
+  const Value document_;
+  TextureLibrary textures_;
+  std::map<std::pair<std::string, std::string>, Rgb> skin_colors_;  // by skin and material
+};
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_scene_rib(const std::filesystem::path& output,
+                                                   const SceneRibSource& source,
+                                                   const SceneRibOptions& options, const Job& job) {
+  return SceneRibWriter(output, source, options, job).write();
+}
+
+}  // namespace pelage

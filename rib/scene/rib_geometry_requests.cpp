@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves, meshes and the shapes of area lights.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/nearest_name.h"
+#include "rib/scene/rib_curve_reader.h"
+#include "rib/scene/rib_interpreter.h"
+#include "rib/scene/rib_mesh_reader.h"
+
+namespace pelage {
+namespace {
+
+// Equal texts mean equal shaders.
+std::string content_of(const RibShader& shader) {
+  std::string text = shader.name + "\n";
+  for (const RibSetting& setting : shader.settings) {
+    text += setting.type + " " + setting.name;
+    for (const float x : setting.numbers) text += fmt::format(" {}", x);
+    for (const std::string& s : setting.strings) text += fmt::format(" {}:{}", s.size(), s);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string name_of(const RibShader* shader, bool fibre) {
+  if (!shader) return fibre ? "hair" : "surface";
+  for (const char* key : {"name", "__name"}) {
+    const RibSetting* name = shader->find(key);
+    if (name && name->strings.size() == 1 && !name->strings[0].empty()) return name->strings[0];
+  }
+  return shader->name.empty() ? "surface" : shader->name;
+}
+
+}  // namespace
+
+std::string RibInterpreter::unique_name(const char* kind, std::string wanted) {
+  // Names become layers of pictures and keys of scenes.
+  for (char& c : wanted) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  }
+  if (wanted.empty()) wanted = "unnamed";
+  if (wanted.size() > 100) wanted.resize(100);
+  std::string name = wanted;
+  for (int n = 2; !names_.insert(std::string(kind) + " " + name).second; ++n)
+    name = wanted + "." + std::to_string(n);
+  return name;
+}
+
+void RibInterpreter::count_points(const RibStatement& request, size_t points) {
+  points_ += points;
+  if (points_ > options_.max_points)
+    request.fail(fmt::format("the file has more than {} points", options_.max_points));
+}
+
+std::string RibInterpreter::material_key(bool fibre, bool strand_color) const {
+  // A shader that Pelage wrote has its own colour.
+  const bool whole = now_.surface && now_.surface->find("pelage");
+  const Rgb color = whole ? Rgb(1) : now_.color;
+  return fmt::format("{} {} {} {} {}\n", fibre, strand_color && !whole, color.x, color.y, color.z) +
+         (now_.surface ? content_of(*now_.surface) : "");
+}
+
+size_t RibInterpreter::material(bool fibre, bool strand_color) {
+  const auto [known, is_new] =
+      materials_.try_emplace(material_key(fibre, strand_color), scene_.materials.size());
+  if (is_new) {
+    RibMaterial material;
+    material.name = unique_name("material", name_of(now_.surface.get(), fibre));
+    material.shader = now_.surface;
+    material.color = now_.color;
+    material.fibre = fibre;
+    material.strand_color = strand_color;
+    scene_.materials.push_back(std::move(material));
+  }
+  return known->second;
+}
+
+void RibInterpreter::curves(const Call& call) {
+  RibCurveSet set = read_curves(call.samples, context_.declarations, now_.basis);
+  RibStatement& request = call.request();
+  for (const std::string& name : set.undeclared)
+    warn_once("undeclared " + name, request.position(),
+              "parameter " + quote(name) + " of Curves has no declared type; skipped");
+  for (const std::string& name : set.unsupported)
+    warn_once("strings " + name, request.position(),
+              "parameter " + quote(name) + " of Curves consists of strings; skipped");
+  if (!set.has_width)
+    warn_once("width", request.position(), "curves without \"width\" or \"constantwidth\" have the width 1");
+  count_points(request, set.strands.points.size() / 4);
+  const size_t own_material = material(true, set.has_color);
+  const std::string name = now_.name.empty() ? "hair" : now_.name;
+  const Rgb& tint = now_.tint;
+  const std::string key =
+      fmt::format("{}\n{} {} {} {}", material_key(true, set.has_color), tint.x, tint.y, tint.z, name);
+  const auto [coat, is_new] = coats_.try_emplace(key, scene_.coats.size());
+  if (is_new) {
+    scene_.coats.emplace_back();
+    scene_.coats.back().name = unique_name("coat", name);
+    scene_.coats.back().material = own_material;
+    scene_.coats.back().tint = tint;
+  }
+  if (!options_.geometry) return;
+  uint64_t& next = context_.next_ids[key];
+  if (!set.has_ids) {
+    for (uint64_t& id : set.strands.ids) id = next++;
+  }
+  size_t dropped = 0;
+  const StrandArrays strands =
+      to_world(std::move(set.strands), call.times, now_.to_world, context_.shutter, dropped);
+  if (dropped > 0)
+    warn_once("dropped", request.position(),
+              "strands without extent, or with points that are not finite, are dropped");
+  batches_.add(coat->second, strands);
+}
+
+void RibInterpreter::keep_batch(size_t coat, Strands batch) {
+  if (take_) {
+    take_(coat, std::move(batch));
+    return;
+  }
+  RibCoat& own = scene_.coats[coat];
+  if (own.scale.width == 0) own.scale = scale_of(batch);
+  kept_bytes_ += batch.bytes();
+  if (options_.reserve) options_.reserve(kept_bytes_);
+  own.batches.push_back(std::make_shared<const Strands>(std::move(batch)));
+}
+
+void RibInterpreter::mesh(const Call& call) {
+  RibStatement& request = call.request();
+  if (request.name == "Patch") {
+    const bool bilinear = !request.arguments.empty() && !request.arguments[0].is_number() &&
+                          request.arguments[0].strings[0] == "bilinear";
+    if (!bilinear || !now_.area) {
+      skipped(request);
+      return;
+    }
+    request.name = "Polygon";
+    request.arguments.erase(request.arguments.begin());
+  }
+  RibMesh mesh = read_mesh(call.samples, context_.declarations);
+  count_points(request, mesh.samples.size() * (mesh.cage.positions.size() + mesh.cage.face_vertices.size()));
+  for (const std::string& what : mesh.ignored)
+    warn_once("mesh " + what, request.position(), what + ": not supported; ignored");
+  if (now_.area) {
+    std::vector<V3f> corners;
+    const M44f matrix = now_.to_world.at(0);
+    for (const V3f& p : mesh.cage.positions) corners.push_back(p * matrix);
+    area_light(RibLight::Shape::kQuad, 0, std::move(corners));
+    return;
+  }
+  const size_t own_material = material(false, false);
+  if (!options_.geometry) return;
+  RibSkin skin;
+  skin.name = unique_name("mesh", now_.name.empty() ? "mesh" : now_.name);
+  skin.material = own_material;
+  skin.tint = now_.tint;
+  mesh.cage.chaikin_creases = now_.chaikin_creases;
+  skin.position = request.position();
+  skin.scheme = mesh.scheme;
+  skin.boundary = mesh.boundary;
+  const size_t count = std::max(mesh.samples.size(), now_.to_world.sample_count());
+  for (const double time : context_.shutter.keys(count)) {
+    const auto after = std::upper_bound(call.times.begin(), call.times.end(), time);
+    const size_t last = mesh.samples.size() - 1;
+    const size_t high = std::min(static_cast<size_t>(after - call.times.begin()), last);
+    const size_t low = after == call.times.begin() ? 0 : static_cast<size_t>(after - call.times.begin()) - 1;
+    const float t = high > low
+                        ? static_cast<float>((time - call.times[low]) / (call.times[high] - call.times[low]))
+                        : 0.0f;
+    const M44f matrix = now_.to_world.at(time);
+    std::vector<V3f> key;
+    for (size_t i = 0; i < mesh.cage.positions.size(); ++i) {
+      const V3f &a = mesh.samples[std::min(low, last)][i], &b = mesh.samples[high][i];
+      const V3f p(interpolate(a.x, b.x, t), interpolate(a.y, b.y, t), interpolate(a.z, b.z, t));
+      key.push_back(matrix == M44f() ? p : p * matrix);
+    }
+    skin.keys.push_back(std::move(key));
+  }
+  mesh.cage.positions = mesh.rest.empty() ? skin.keys.front() : std::move(mesh.rest);
+  kept_bytes_ += mesh.cage.bytes() + skin.keys.size() * skin.keys.front().size() * sizeof(V3f);
+  if (options_.reserve) options_.reserve(kept_bytes_);
+  skin.cage = std::move(mesh.cage);
+  scene_.skins.push_back(std::move(skin));
+}
+
+void RibInterpreter::sphere(const Call& call) {
+  RibStatement& request = call.request();
+  if (!now_.area) {
+    skipped(request);
+    return;
+  }
+  if (request.arguments.empty() || !request.arguments[0].is_number() || request.arguments[0].size() == 0)
+    request.fail("expected a radius");
+  const float radius = std::abs(request.arguments[0].number(0));
+  if (!(radius > 0 && radius < 1e18f)) request.fail("the radius must be greater than 0");
+  area_light(RibLight::Shape::kSphere, radius, {});
+}
+
+void RibInterpreter::area_light(RibLight::Shape shape, float radius, std::vector<V3f> corners) {
+  RibLight light;
+  light.shader = now_.area;
+  light.name = light_name(*now_.area);
+  light.to_world = now_.to_world;
+  light.shape = shape;
+  light.radius = radius;
+  light.corners = std::move(corners);
+  scene_.lights.push_back(std::move(light));
+}
+
+}  // namespace pelage

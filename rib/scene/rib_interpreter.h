@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rib/scene/rib_programs.h"
+#include "rib/scene/rib_reading.h"
+#include "rib/scene/rib_state.h"
+
+namespace pelage {
+
+/// The batches of a deferred archive, in the order in which they are completed.
+struct RibDeferredArchive {
+  std::filesystem::path path;
+  RibContext context;
+  size_t request_bytes = 0;               ///< memory of its largest request
+  std::shared_ptr<const RibReply> reply;  ///< if `path` is the reply of a program: keeps the file
+  /// Reads one batch again. Throws Error (kInput) if the file has changed.
+  Strands read(size_t batch, const StrandCounts& expected) const;
+};
+
+/// Returns the sizes of a batch.
+StrandCounts rib_counts(const Strands& strands);
+
+/// Executes the requests of RIB files. One instance reads one frame; all requests change its state or add to
+/// the scene.
+class RibInterpreter {
+ public:
+  RibInterpreter(const RibReadOptions& options, RibContext context);
+  RibInterpreter(const RibInterpreter&) = delete;
+  RibInterpreter& operator=(const RibInterpreter&) = delete;
+
+  /// Reads a file, and the files that it names. `named_at`: request that names it; null for the first file.
+  void read_file(const std::filesystem::path& path, const RibStatement* named_at);
+  /// Ends the frame: completes batches, and checks that all blocks are closed.
+  void finish();
+  RibScene& scene() { return scene_; }
+
+  /// Deferred archives: calls `take` instead of keeping strands.
+  void set_take(RibBatches::Take take) {
+    take_ = std::move(take);
+    in_deferred_ = true;
+  }
+  /// Ignores all further requests.
+  void stop() { stopped_ = true; }
+
+ private:
+  /// A request, or the samples of a request in a motion block.
+  struct Call {
+    std::span<RibStatement> samples;
+    std::vector<double> times;  // empty outside of motion blocks
+    RibStatement& request() const { return samples.front(); }
+  };
+  using Handler = void (RibInterpreter::*)(const Call&);
+  struct Block {
+    std::string name;  // "Attribute"
+    std::string file;
+    int line = 0, column = 0;
+    RibAttributes saved;
+  };
+  static Handler handler(const std::string& name);
+
+  void execute(RibStatement& request);
+  bool record(const RibStatement& request);
+  bool skip(const RibStatement& request);
+  void dispatch(const Call& call);
+  void warn_once(const std::string& kind, const SourcePosition& position, const std::string& message);
+  void skipped(const RibStatement& request);
+  void keep(const RibStatement& request, std::vector<RibStatement>& list);
+  void allow_request(const RibStatement& request, size_t bytes);
+
+  // blocks (rib_blocks.cpp)
+  void begin_block(const Call& call);
+  void end_block(const Call& call);
+  void begin_frame(const Call& call);
+  void begin_world(const Call& call);
+  void begin_motion(const Call& call);
+  void end_motion(const Call& call);
+  void begin_object(const Call& call);
+  void instance(const Call& call);
+
+  // attributes (rib_attribute_requests.cpp)
+  void transform(const Call& call);
+  void set_transform(const Call& call);
+  void coordinate_system(const Call& call);
+  void use_coordinate_system(const Call& call);
+  void color(const Call& call);
+  void surface(const Call& call);
+  void basis(const Call& call);
+  void attribute(const Call& call);
+  void declare(const Call& call);
+  void light_source(const Call& call);
+  void area_light_source(const Call& call);
+  std::shared_ptr<const RibShader> shader_of(RibStatement& request, size_t parameters);
+  std::vector<RibSetting> settings_of(RibStatement& request, size_t parameters);
+
+  // camera and options (rib_camera_requests.cpp)
+  void projection(const Call& call);
+  void camera_numbers(const Call& call);
+  void display(const Call& call);
+  void option(const Call& call);
+
+  // geometry (rib_geometry_requests.cpp)
+  void curves(const Call& call);
+  void mesh(const Call& call);
+  void sphere(const Call& call);
+  void area_light(RibLight::Shape shape, float radius, std::vector<V3f> corners);
+  std::string material_key(bool fibre, bool strand_color) const;
+  size_t material(bool fibre, bool strand_color);
+  void keep_batch(size_t coat, Strands batch);
+  void count_points(const RibStatement& request, size_t points);
+  std::string unique_name(const char* kind, std::string wanted);
+  /// Of its shader's "string name", which `pelage rib` writes, else of the attribute "identifier".
+  std::string light_name(const RibShader& shader);
+  static StrandScale scale_of(const Strands& strands);
+
+  // archives and procedurals (rib_archive_requests.cpp)
+  void read_archive(const Call& call);
+  void procedural(const Call& call);
+  std::filesystem::path find_file(const std::string& name, const RibStatement& request) const;
+  void defer_archive(const std::filesystem::path& path, const RibStatement& request,
+                     std::shared_ptr<const RibReply> reply);
+
+  // procedurals that run code (rib_program_requests.cpp)
+  /// A request to a program. Programs run one after the other, and not while another reply is read: that
+  /// reply is read again for each of its batches, but the programs that it names are not asked again.
+  struct WaitingProgram {
+    RibStatement request;  ///< of a file of the user, also if a reply asks
+    std::string command, line;
+    RibAttributes attributes;
+    size_t depth = 0;
+  };
+  void add_own_procedural(const std::string& arguments, const RibStatement& request);
+  static bool is_own_procedural(const std::string& kind, const std::string& program);
+  void foreign_procedural(const std::string& kind, const std::vector<std::string>& words, const Box3f& bound,
+                          const RibStatement& request);
+  void run_waiting_programs();
+  void run_program(WaitingProgram waiting);
+  float detail_of(const Box3f& bound) const;
+
+  void ignore(const Call&) {}
+
+  const RibReadOptions options_;
+  RibContext context_;
+  RibScene scene_;
+  RibBatches::Take take_;
+  RibBatches batches_;
+  RibAttributes& now_ = context_.attributes;
+  std::vector<Block> blocks_;
+  std::vector<std::filesystem::path> reading_;  // files being read, from the outermost
+
+  std::string skip_until_;  // a request that ends skipping; empty: not skipping
+  bool frame_done_ = false, world_done_ = false;
+
+  bool in_motion_ = false;
+  std::vector<double> times_;
+  std::vector<RibStatement> samples_;
+
+  std::string recording_;  // the request that ends the recording; empty: none
+  std::string recorded_;   // key of the object
+  std::map<std::string, std::vector<RibStatement>> objects_;
+  bool replaying_ = false;
+  SourcePosition opened_at_;  // of the motion block or object
+  std::deque<WaitingProgram> programs_;
+  size_t program_depth_ = 0;              // replies around the one that is read
+  const RibStatement* asking_ = nullptr;  // request to which the reply that is read belongs; null: none
+  size_t largest_request_ = 0;            // bytes of the arguments, if more than 1 MiB
+  size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, inner_archives_ = 0, statements_ = 0;
+
+  RibCamera camera_;
+  bool in_deferred_ = false, stopped_ = false;
+  std::map<std::string, size_t> materials_, coats_;  // by content
+  std::set<std::string> names_, warned_;
+};
+
+}  // namespace pelage

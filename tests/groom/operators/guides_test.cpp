@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/operators/guides.h"
+
+#include <filesystem>
+
+#include "base/temporary_folder.h"
+#include "geom/curve.h"
+#include "geom/io/strand_file.h"
+#include "groom/strands/resample.h"
+#include "tests/groom/operator_harness.h"
+
+namespace pelage {
+namespace {
+
+class GuidesTest : public OperatorTest {
+ protected:
+  /// Writes a guide on every `step`-th follicle: straight along the normal, of the length that `length(root)`
+  /// gives.
+  template <class Length>
+  void write_guides(size_t step, const Length& length) {
+    StrandArrays arrays;
+    arrays.first_point.push_back(0);
+    for (size_t f = 0; f < follicles_.size(); f += step) {
+      const RootAddress& address = follicles_.root(f);
+      const V3f root = rest_->evaluate(address.face, address.u, address.v).position;
+      const V3f normal = rest_->frame(address.face, address.u, address.v).normal;
+      roots_.push_back(root);
+      for (int p = 0; p < 5; ++p) {
+        const V3f point = root + normal * (length(root) * static_cast<float>(p) / 4);
+        arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
+      }
+      arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
+      arrays.ids.push_back(arrays.ids.size());
+    }
+    write_strands(file_, Strands(std::move(arrays)));
+  }
+
+  GuidesParams params() const {
+    GuidesParams p;
+    p.file = {file_, {}};
+    return p;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "guides.hair";
+  std::vector<V3f> roots_;
+};
+
+TEST_F(GuidesTest, StrandsTakeShapeAndLengthOfNearbyGuides) {
+  const auto length = [](const V3f& root) { return 1.0f + 0.5f * root.y; };
+  write_guides(3, length);  // about 0.13 apart
+  const Guides op = prepared<Guides>(params());
+  auto batch = straight();
+  for (size_t s = 0; s < batch->count; ++s) {
+    for (int p = 1; p < 8; ++p) batch->set_offset(p, s, V3f(0.1f * batch->along(p), 0, 0));
+  }
+  op.apply(*batch);
+  for (size_t s = 0; s < batch->count; ++s) {
+    EXPECT_NEAR(length_of(*batch, s), length(vector_at(batch->rest.position, s)), 0.08f);
+    EXPECT_GT(batch->offset(7, s).normalized().dot(vector_at(batch->rest.normal, s)), 0.999f);
+  }
+}
+
+TEST_F(GuidesTest, Bounds) {
+  write_guides(9, [](const V3f&) { return 1.2f; });
+  check_bounds(prepared<Guides>(params()), {1, 1, 0});
+  GuidesParams half = params();
+  half.amount = Field(0.5f);
+  check_bounds(prepared<Guides>(half), {1, 1, 0});
+}
+
+TEST_F(GuidesTest, SpreadKeepsFolliclesNearGuides) {
+  // Guides on one side of the ball only.
+  write_guides(
+      3, [](const V3f& root) { return root.x > 0.4f ? 1.0f : 0.0f; });  // the others are dropped: no extent
+  GuidesParams near = params();
+  near.spread = 0.1f;
+  const Guides op = prepared<Guides>(near);
+  EXPECT_TRUE(op.traits().restricts_coverage);
+  FollicleOptions options;
+  options.count = 1000;
+  options.coverage = [&op](const V3f& at, const V3f& normal) { return op.coverage(at, normal); };
+  const FollicleTree tree = FollicleTree::build(*rest_, options, job_);
+  ASSERT_EQ(tree.size(), 1000u);
+  for (size_t f = 0; f < tree.size(); ++f) {
+    const RootAddress& root = tree.root(f);
+    EXPECT_GT(rest_->evaluate(root.face, root.u, root.v).position.x, 0.4f - 0.1f);
+  }
+}
+
+TEST_F(GuidesTest, MissingFilesAndEmptyOnesAreErrors) {
+  Guides missing(params());
+  EXPECT_THROW(missing.prepare(context()), Error);
+}
+
+TEST(Resample, TheSplineRunsAlongTheStrand) {
+  // A quarter of a circle in 16 points, brought to 9.
+  StrandArrays arrays;
+  arrays.basis = CurveBasis::kCatmullRom;
+  for (int p = 0; p < 16; ++p) {
+    const float angle = static_cast<float>(p) / 15 * std::numbers::pi_v<float> / 2;
+    arrays.points.insert(arrays.points.end(), {std::cos(angle), std::sin(angle), 0, 0.01f});
+  }
+  arrays.first_point = {0, 16};
+  arrays.ids = {0};
+  const Strands circle(std::move(arrays));
+  const std::vector<V3f> points = resample_strand(circle, 0, 9);
+  ASSERT_EQ(points.size(), 9u);
+  StrandArrays fine;
+  for (const V3f& p : points) fine.points.insert(fine.points.end(), {p.x, p.y, p.z, 0.01f});
+  fine.first_point = {0, 9};
+  fine.ids = {0};
+  const Strands spline(std::move(fine));
+  for (uint32_t segment = 0; segment < 8; ++segment) {
+    for (int i = 0; i <= 8; ++i) {
+      const V3f at = curve_position(bezier_segment(spline, 0, segment), static_cast<float>(i) / 8);
+      EXPECT_NEAR(at.length(), 1, 4e-3f);
+    }
+  }
+  EXPECT_LT((points.front() - V3f(1, 0, 0)).length(), 1e-5f);
+  EXPECT_LT((points.back() - V3f(0, 1, 0)).length(), 1e-5f);
+}
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rib/document/rib_document.h"
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "base/temporary_folder.h"
+#include "rib/document/rib_values.h"
+#include "tests/support/quiet_job.h"
+#include "world/world.h"
+
+namespace pelage {
+namespace {
+
+class RibDocumentTest : public testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& text, const char* name = "shot.rib") const {
+    write_file(folder_.path() / name, text);
+    return folder_.path() / name;
+  }
+  SceneDescription shot(const std::string& text, const std::vector<Override>& overrides = {}) const {
+    return load_scene(write(text), overrides);
+  }
+  std::string failure(const std::string& text, const std::vector<Override>& overrides = {}) const {
+    try {
+      shot(text, overrides);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  TemporaryFolder folder_;
+};
+
+const std::string kHair =
+    "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 0 1 0] \"constantwidth\" 0.1 \"uniform color Cs\" [1 "
+    "0 0]\n";
+
+std::string matrix_text(const M44f& m) {
+  std::string text = "ConcatTransform [";
+  for (const auto& row : m.x) {
+    for (const float x : row) text += std::to_string(x) + " ";
+  }
+  return text + "]\n";
+}
+
+TEST_F(RibDocumentTest, TheCameraGivesTheRaysOfTheScenesCamera) {
+  CameraParams params;
+  params.position = V3f(3, 2, 8);
+  params.look_at = V3f(1, 0.5f, 0);
+  params.up = V3f(0.2f, 1, 0);
+  params.fov = 31.0f;
+  params.lens = LensParams{4, 0.5f, 7};
+  // Landscape and portrait: the field of view of RI is that of the shorter side, unless ScreenWindow says
+  // else.
+  for (const auto& [width, height, window] :
+       {std::tuple(320, 180, ""), std::tuple(180, 320, "ScreenWindow -0.5625 0.5625 -1 1"),
+        std::tuple(320, 180, "ScreenWindow -1.7777778 1.7777778 -1 1")}) {
+    const Camera camera(params, 1, width, height);
+    const SceneDescription scene =
+        shot("Format " + std::to_string(width) + " " + std::to_string(height) + " 1 DepthOfField 4 0.5 7 " +
+             window + " Projection \"perspective\" \"fov\" 31\n" + matrix_text(camera.world_to_camera()) +
+             "WorldBegin " + kHair + "WorldEnd");
+    const Camera read(scene.camera, 1, scene.image.width, scene.image.height);
+    for (const auto& [x, y] : {std::pair(0.f, 0.f), std::pair(100.f, 30.f), std::pair(170.f, 160.f)}) {
+      const CameraRay a = camera.ray(x, y, V2f(.3f, .8f), 0), b = read.ray(x, y, V2f(.3f, .8f), 0);
+      // std::to_string writes six decimals of the matrix.
+      EXPECT_LT((a.origin - b.origin).length(), 3e-5f);
+      EXPECT_LT((a.direction - b.direction).length(), 1e-5f);
+    }
+  }
+}
+
+TEST_F(RibDocumentTest, AMovingCameraHasKeysOverTheShutter) {
+  const SceneDescription scene = shot(
+      "FrameBegin 7 Shutter -0.25 0.25 Projection \"perspective\" \"fov\" 30 MotionBegin [-0.25 0.25] "
+      "Translate 0 0 5 "
+      "Translate 0 0 6 MotionEnd Scale 1 1 -1 WorldBegin " +
+      kHair + "WorldEnd FrameEnd");
+  EXPECT_EQ(scene.frames.frames, (std::vector<int>{7}));
+  EXPECT_EQ(scene.camera.shutter, V2f(-.25f, .25f));
+  EXPECT_NEAR(scene.camera.position.at(6.75).z, 5, 1e-5);
+  EXPECT_NEAR(scene.camera.position.at(7.25).z, 6, 1e-5);
+}
+
+TEST_F(RibDocumentTest, FramesBecomeKeys) {
+  const auto frame = [](int number) {
+    return "FrameBegin " + std::to_string(number) + " Projection \"perspective\" Translate 0 0 " +
+           std::to_string(number) + " Scale 1 1 -1 WorldBegin " + kHair + "WorldEnd FrameEnd\n";
+  };
+  const SceneDescription scene = shot(frame(2) + frame(4));
+  EXPECT_EQ(scene.frames.frames, (std::vector<int>{2, 4}));
+  EXPECT_NEAR(scene.camera.position.at(2).z, 2, 1e-5);
+  EXPECT_NEAR(scene.camera.position.at(4).z, 4, 1e-5);
+}
+
+TEST_F(RibDocumentTest, OverridesWinOverTheFile) {
+  const std::string text =
+      "Option \"pelage\" \"string image\" [\"{filter: box, width: 7}\"] Option \"pelage\" \"string "
+      "render\" [\"{bounces: 2, samples: 9}\"] Format 64 48 1 PixelSamples 4 4 Projection "
+      "\"perspective\" WorldBegin " +
+      kHair + "WorldEnd";
+  SceneDescription scene = shot(text);
+  EXPECT_EQ(scene.image.width, 64) << "requests win over the option, because other programs may edit them";
+  EXPECT_EQ(scene.render.samples, 16);
+  EXPECT_EQ(scene.render.bounces, 2);
+  scene = shot(text, {{"image.width", "20"}, {"render.samples", "3"}, {"camera.fov", "12"}});
+  EXPECT_EQ(scene.image.width, 20);
+  EXPECT_EQ(scene.render.samples, 3);
+  EXPECT_NEAR(scene.camera.fov.at(1), 12, 1e-5);
+  EXPECT_NE(failure(text, {{"image.widht", "20"}}).find("did you mean 'width'"), std::string::npos);
+}
+
+TEST_F(RibDocumentTest, MaterialsAndLightsThatPelageWrote) {
+  const SceneDescription scene = shot(
+      "WorldBegin AttributeBegin AreaLightSource \"arealight\" 1 \"string name\" \"key\" \"string pelage\" "
+      "[\"{type: sphere, position: [1, 2, 3], radius: 0.5}\"] Sphere 0.5 -0.5 0.5 360 AttributeEnd "
+      "Surface \"pelage_fur\" \"string name\" \"fur\" \"float diffuse\" 0.7 \"string pelage\" "
+      "[\"{model: cone-shell, color: {attribute: color}, diffuse: 0.7}\"] " +
+      kHair + "WorldEnd");
+  ASSERT_EQ(scene.lights.items.size(), 1u);
+  EXPECT_EQ(scene.lights.items[0].name, "key");
+  EXPECT_EQ(std::get<SphereLightParams>(scene.lights.items[0].value).radius, .5f);
+  ASSERT_TRUE(scene.materials.find("fur"));
+  EXPECT_EQ(std::get<ConeShellParams>(scene.materials.find("fur")->value).diffuse, .7f);
+}
+
+TEST_F(RibDocumentTest, LightsAndMaterialsOfOtherPrograms) {
+  const SceneDescription scene = shot(
+      "Projection \"perspective\" WorldBegin LightSource \"envlight\" 1 \"intensity\" 0.5 \"string name\" "
+      "\"sky\" LightSource "
+      "\"pointlight\" 2 "
+      "\"from\" [0 5 0] LightSource \"gobo\" 3 AttributeBegin AreaLightSource \"finite\" 4 \"color "
+      "lightcolor\" [1 2 3] "
+      "Polygon \"P\" [0 0 0 2 0 0 2 1 0 0 1 0] AttributeEnd Surface \"plastic\" Color [0.1 0.2 0.3] "
+      "PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0] WorldEnd");
+  ASSERT_EQ(scene.lights.items.size(), 3u);
+  EXPECT_TRUE(std::holds_alternative<EnvironmentLightParams>(scene.lights.items[0].value));
+  EXPECT_EQ(scene.lights.items[0].name, "sky");
+  EXPECT_TRUE(std::holds_alternative<SphereLightParams>(scene.lights.items[1].value));
+  EXPECT_EQ(scene.lights.items[1].name, "pointlight");
+  const auto& quad = std::get<RectangleLightParams>(scene.lights.items[2].value);
+  EXPECT_EQ(quad.size, V2f(2, 1));
+  // The world is left-handed: it is mirrored, and with it the side from which the corners turn left.
+  EXPECT_EQ(quad.radiance, Rgb(1, 2, 3));
+  EXPECT_TRUE(std::holds_alternative<LambertParams>(scene.materials.find("plastic")->value));
+  EXPECT_EQ(scene.warnings.size(), 2u) << "one for gobo, one for plastic";
+}
+
+TEST_F(RibDocumentTest, MistakesHavePositions) {
+  EXPECT_NE(failure("WorldBegin\n Translate 1 WorldEnd").find("shot.rib:2:2: Translate: expected 3 numbers"),
+            std::string::npos);
+  EXPECT_NE(failure(kHair).find("the file has no WorldBegin"), std::string::npos);
+  EXPECT_NE(failure("Option \"pelage\" \"string image\" [\"{widht: 5}\"] WorldBegin WorldEnd")
+                .find("shot.rib:1:32: unknown key 'widht'"),
+            std::string::npos);
+}
+
+TEST_F(RibDocumentTest, ScenesGetMaterialsForTheSurfacesOfTheirArchives) {
+  write(
+      "Surface \"pelage_fur\" \"string name\" \"fur\" \"string model\" \"cone-shell\" \"color color\" [1 0 "
+      "0] " +
+          kHair + "Surface \"plastic\" PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0]",
+      "a.rib");
+  write(
+      "pelage: 1\nmaterials: {hide: {model: lambert}}\narchives:\n  fox: {rib: a.rib, materials: {plastic: "
+      "hide}}\n",
+      "scene.yaml");
+  const SceneDescription scene = load_scene(folder_.path() / "scene.yaml");
+  ASSERT_TRUE(scene.materials.find("fox.fur"));
+  EXPECT_FALSE(scene.materials.find("fox.plastic"));
+  EXPECT_EQ(scene.archives.items[0].value.materials.find("fur")->value.name, "fox.fur");
+  EXPECT_TRUE(scene.warnings.empty());
+
+  write(
+      "pelage: 1\nmaterials: {hide: {model: lambert}}\narchives:\n  fox: {rib: a.rib, materials: {plastik: "
+      "hide}}\n",
+      "scene.yaml");
+  const SceneDescription misspelt = load_scene(folder_.path() / "scene.yaml");
+  ASSERT_EQ(misspelt.warnings.size(), 2u) << "also: the shader plastic is not known";
+  EXPECT_NE(misspelt.warnings[0].message.find("no surface 'plastik'; did you mean 'plastic'?"),
+            std::string::npos);
+  write("pelage: 1\narchives:\n  fox: {rib: none.rib}\n", "scene.yaml");
+  try {
+    load_scene(folder_.path() / "scene.yaml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("scene.yaml:3:14: "), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace pelage

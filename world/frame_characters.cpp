@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/frame_characters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "procedurals/fur.h"
+#include "render/scene/render_scene.h"
+#include "world/character_transform.h"
+
+namespace pelage {
+
+namespace {
+
+bool is_prototype(const SceneDescription& scene, const std::string& character) {
+  for (const auto& crowd : scene.crowds.items) {
+    for (const NameReference& of : crowd.value.of) {
+      if (of.name == character) return true;
+    }
+  }
+  return false;
+}
+
+M44f to_world(const FrameCharacter& character, double time) {
+  const M44f own = character_matrix(character.params->transform, time);
+  if (!character.member) return own;
+  return scale_of(*character.member) * own * placement_of(*character.member);
+}
+
+/// Motion of one part of a character.
+struct Motion {
+  const FrameCharacter& character;
+  const std::vector<V3f>& rest;
+  const PoseSequence* poses;  // null: at rest
+
+  bool moves() const { return poses || pelage::moves(character.params->transform); }
+  void add_pose(double time, PosedCages& cages) const {
+    const M44f matrix = to_world(character, time);
+    const double shown =
+        time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
+    std::vector<V3f> cage = poses ? poses->positions(shown) : rest;
+    for (V3f& point : cage) point *= matrix;
+    cages.cages.push_back(std::move(cage));
+    cages.transforms.push_back(matrix);
+  }
+};
+
+Motion motion_of(const FrameCharacter& character, size_t part, const Assets& assets) {
+  const Assets::Skin& skin = assets.skins.at(character.params->parts[part].skin.name);
+  const auto own = assets.part_poses.find({character.prototype, part});
+  if (own != assets.part_poses.end()) return {character, skin.cage.positions, &own->second};
+  return {character, skin.cage.positions, skin.poses ? &*skin.poses : nullptr};
+}
+
+}  // namespace
+
+std::vector<FrameCharacter> frame_characters(const SceneDescription& scene, const Assets& assets) {
+  std::vector<FrameCharacter> drawn;
+  for (const auto& [name, position, params] : scene.characters.items) {
+    if (params.drawn.value_or(!is_prototype(scene, name))) drawn.push_back({name, name, &params, {}});
+  }
+  for (size_t crowd = 0; crowd < scene.crowds.items.size(); ++crowd) {
+    const auto& [name, position, params] = scene.crowds.items[crowd];
+    const std::vector<CrowdMember>& members = assets.crowds[crowd];
+    for (size_t i = 0; i < members.size(); ++i) {
+      const std::string& prototype = params.of[members[i].prototype].name;
+      drawn.push_back(
+          {name + "." + std::to_string(i), prototype, &scene.characters.find(prototype)->value, members[i]});
+    }
+  }
+  return drawn;
+}
+
+int64_t frame_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
+                              const CharacterParams& character) {
+  constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
+  constexpr size_t kName = 48;  // per name that is too long for a string's internal buffer
+  const CrowdMember anyone;
+  const FrameCharacter animal{name, name, &character, anyone};
+  size_t bytes = sizeof(CrowdMember) + sizeof(FrameCharacter) + 2 * kName;
+  for (size_t part = 0; part < character.parts.size(); ++part) {
+    const Motion motion = motion_of(animal, part, assets);
+    const bool shutter = scene.camera.shutter.y > scene.camera.shutter.x;
+    const size_t times =
+        motion.moves() && shutter ? static_cast<size_t>(scene.camera.motion_keys) + 2 : size_t(1);
+    bytes += times * (motion.rest.size() * sizeof(V3f) + sizeof(std::vector<V3f>) + sizeof(M44f) + kHeap);
+    bytes += sizeof(PosedCharacterSkin) + 4 * kHeap + sizeof(SkinPart) + kName;
+    bytes += character.parts[part].grooms.items.size() *
+             (sizeof(FurPart) + sizeof(FurProcedural) + sizeof(void*) + kName + 2 * kHeap);
+  }
+  return static_cast<int64_t>(bytes);
+}
+
+bool has_coat(const FrameCharacter& character) {
+  return std::any_of(character.params->parts.begin(), character.params->parts.end(),
+                     [](const PartParams& part) { return !part.grooms.items.empty(); });
+}
+
+std::vector<bool> full_detail_characters(const std::vector<FrameCharacter>& characters, int64_t count,
+                                         const V3f& eye, double frame) {
+  std::vector<std::pair<float, size_t>> by_distance;
+  for (size_t i = 0; i < characters.size() && count > 0; ++i) {
+    if (!has_coat(characters[i])) continue;
+    const V3f origin = to_world(characters[i], frame).translation();
+    by_distance.emplace_back((origin - eye).length(), i);
+  }
+  std::sort(by_distance.begin(), by_distance.end());
+  std::vector<bool> full_detail(characters.size(), false);
+  const auto all = static_cast<int64_t>(by_distance.size());
+  count = std::min(count, all);
+  for (int64_t n = 0; n < count; ++n)
+    full_detail[by_distance[static_cast<size_t>((2 * n + 1) * all / (2 * count))].second] = true;
+  return full_detail;
+}
+
+CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
+                             const CameraParams& camera, double frame) {
+  CharacterPose pose;
+  pose.topology = assets.skins.at(character.params->parts[part].skin.name).rest->shared_topology();
+  pose.scale = character.params->transform.scale.at(frame);
+  if (character.member) {
+    const V3f& axes = character.member->scale;
+    pose.scale *= axes.x == axes.y && axes.y == axes.z ? axes.x : std::cbrt(axes.x * axes.y * axes.z);
+    pose.length = character.member->length;
+  }
+  const Motion motion = motion_of(character, part, assets);
+  const double open = frame + camera.shutter.x, length = double(camera.shutter.y) - camera.shutter.x;
+  if (!motion.moves()) {
+    motion.add_pose(frame, pose.shutter);
+  } else if (!(length > 0)) {
+    motion.add_pose(open, pose.shutter);
+  } else {
+    for (int key = 0; key < camera.motion_keys; ++key)
+      motion.add_pose(open + length * key / (camera.motion_keys - 1), pose.shutter);
+    for (double end : {frame - 0.5, frame + 0.5}) motion.add_pose(end, pose.frame_ends);
+  }
+  return pose;
+}
+
+}  // namespace pelage
