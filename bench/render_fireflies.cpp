@@ -141,7 +141,7 @@ void fireflies(benchmark::State& state) {
     auto film = std::make_unique<Film>(kSize, kSize, layers, ledger);
     FrameLoop loop(tracer, {workers, ledger, progress}, *film, frame_window(kSize, kSize, {}, layers.splat),
                    clock);
-    loop.pass([samples](size_t, uint32_t) { return samples; }, false);
+    loop.pass({[samples](size_t) { return samples; }});
     return film;
   };
   for (auto _ : state) {

@@ -262,12 +262,14 @@ StrandCounts Groom::counts(size_t leaf, size_t count) const {
     for (size_t f = range.begin; f < range.end; ++f) {
       const auto points = static_cast<uint32_t>(source.strand_points(f));
       counts.points += points;
+      counts.longest = std::max<size_t>(counts.longest, points);
       counts.segments += segment_count(source.imported->basis(), points);
     }
     counts.attribute_floats =
         source.imported->attribute_floats(range.begin, range.end, colors ? "color" : "");
   } else {
     counts.points = counts.strands * static_cast<size_t>(source.points);
+    counts.longest = static_cast<size_t>(source.points);
     counts.segments = counts.strands * static_cast<size_t>(source.points - 1);
   }
   if (colors) {

@@ -12,7 +12,6 @@
 #include "render/frame/frame_shading.h"
 #include "render/frame/skin_point.h"
 #include "render/frame/strand_fields.h"
-#include "why/kept_settings.h"
 
 namespace pelage {
 namespace {
@@ -90,12 +89,14 @@ MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& f
   return why;
 }
 
-/// Gives the film of a frame all layers, and each pixel all its samples.
-void set_all_layers(RenderScene& scene) {
-  scene.image.light_layers = scene.image.event_layers = true;
-  scene.image.noise_layers = scene.render.integrator == Integrator::kPath;
-  scene.render.adaptive.reset();
-  scene.render.time_limit = 0;
+/// Settings with which the film of a frame has all layers, and each pixel all its samples.
+FrameSettings with_all_layers(const RenderScene& scene) {
+  FrameSettings settings{scene.image, scene.render};
+  settings.image.light_layers = settings.image.event_layers = true;
+  settings.image.noise_layers = scene.render.integrator == Integrator::kPath;
+  settings.render.adaptive.reset();
+  settings.render.time_limit = 0;
+  return settings;
 }
 
 SkinWhy explain_skin(const RenderScene& scene, const SeenSurface& surface) {
@@ -138,15 +139,14 @@ void check_pixel(const ImageParams& image, int x, int y) {
 }
 
 PixelWhy explain_pixel(const ExplainedFrame& frame, int x, int y, const Job& job) {
-  RenderScene& scene = frame.world.scene;
+  const RenderScene& scene = frame.world.scene;
   check_pixel(scene.image, x, y);
   PixelWhy why;
   why.x = x;
   why.y = y;
   why.is_adaptive = scene.render.adaptive.has_value();
-  const KeptSettings kept(scene);
-  set_all_layers(scene);
   FrameOptions options;
+  options.settings = with_all_layers(scene);
   options.region = PixelBox{x, y, x + 1, y + 1};
   const Growth before(frame.geometry.get());
   const FrameResult result = render(frame.world, job, options, frame.geometry, frame.kept);

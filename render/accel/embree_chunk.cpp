@@ -329,7 +329,7 @@ bool EmbreeChunk::is_start(const Ray& ray, uint32_t primitive, float u, float di
 }
 
 CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
-  return {strands_->id(place.strand), part_, place.segment + joint_beside(u, options_.tessellation_rate)};
+  return {strands_->id(place.strand), part_, place.segment + joint_beside(u, kTessellationRate)};
 }
 
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {

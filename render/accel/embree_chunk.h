@@ -14,7 +14,6 @@ namespace pelage {
 
 struct EmbreeChunkOptions {
   CurveShape shape = CurveShape::kFlat;
-  int tessellation_rate = 8;  ///< number of straight pieces of a flat segment; see EmbreeCurves
   bool compact_attributes = true;
   bool screen_door = false;  ///< secondary rays see strands through a ScreenDoor
 };

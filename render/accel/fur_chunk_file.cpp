@@ -18,7 +18,7 @@ constexpr size_t kOverhead = size_t(16) << 10;  // small allocations of a chunk,
 constexpr size_t kUnmet = 4096;                 // segments of a chunk in excess of full blocks
 constexpr size_t kMaxHead = size_t(1) << 20;
 
-enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
+enum ChunkSection : size_t { kHead, kPacked, kNodes, kLeaves };
 
 /// Metadata of a chunk, followed by the metadata of its packed strands.
 struct Head {
@@ -103,10 +103,7 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
 }
 
 FurChunkFile::FurChunkFile(StoredSections file)
-    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {
-  // The regions of a frame are processes that read the same chunks.
-  file_.keep_cached();
-}
+    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {}
 
 size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted)
+CameraSamples::CameraSamples(const FrameScene& scene, const Accel& accel, bool splatted)
     : scene_(scene),
       opaque_(accel.opaque()),
       widens_(scene.render.min_width() > 0),

@@ -6,7 +6,7 @@
 #include "render/accel/accel.h"
 #include "render/film/pixel_filter.h"
 #include "render/sampling/sample_stream.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -14,6 +14,11 @@ namespace pelage {
 /// on the course of the path. Each vertex of the path has several draws; the draws of the first vertex start
 /// at kFirstVertex.
 enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
+/// The dimensions of a path's first vertex, from SampleDimension::kFirstVertex on.
+enum class VertexDimension : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4 };
+inline void seek(SampleStream& stream, VertexDimension dimension) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + static_cast<uint32_t>(dimension));
+}
 
 struct CameraSample {
   Ray ray;
@@ -26,7 +31,7 @@ class CameraSamples {
  public:
   /// `scene` must outlive this object. With `splatted`, samples are distributed uniformly over their pixel;
   /// otherwise, their density is proportional to the pixel filter.
-  CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
+  CameraSamples(const FrameScene& scene, const Accel& accel, bool splatted);
 
   /// Returns the random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
@@ -34,7 +39,7 @@ class CameraSamples {
   CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
 
  private:
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const bool opaque_, widens_;
   const FilterSampler place_;
 };

@@ -104,7 +104,7 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const SkinShadows* balls)
+FrameShading::FrameShading(const FrameScene& scene, const SkinShadows* balls)
     : scene_(scene), balls_(balls), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {

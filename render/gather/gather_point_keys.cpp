@@ -23,7 +23,7 @@ float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
 
 }  // namespace
 
-GatherPointKeys::GatherPointKeys(const RenderScene& scene, uint32_t samples)
+GatherPointKeys::GatherPointKeys(const FrameScene& scene, uint32_t samples)
     : camera_(scene.camera),
       params_(scene.render.gather),
       cells_(scene.camera, scene.fur, static_cast<float>(samples)) {}

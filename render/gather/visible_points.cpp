@@ -11,13 +11,6 @@
 namespace pelage {
 namespace {
 
-/// Draws after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
-enum FirstVertexDimension : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
-
-void seek(SampleStream& stream, FirstVertexDimension draw) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + draw);
-}
-
 /// The i-th number of a sequence in [0, 1) from the random number u: a rotation by the golden ratio.
 float turned(float u, size_t i) {
   const float sum = u + static_cast<float>(i) * 0.6180339887f;
@@ -26,7 +19,7 @@ float turned(float u, size_t i) {
 
 }  // namespace
 
-VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
+VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shading,
                              const CameraSamples& camera, uint32_t samples)
     : scene_(scene),
       shading_(shading),
@@ -49,15 +42,11 @@ uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scra
   return gather_point;
 }
 
-void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
-                         Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
-                         TileSamples& tile) const {
-  const int x = tile.x(pixel), y = tile.y(pixel);
-  SampleStream stream = camera_.stream(x, y, sample);
-  const CameraSample from = known ? *known : camera_.draw(x, y, sample, stream);
+void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& from, const Hit& hit,
+                        Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
+                        TileSamples& tile) const {
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  const Hit hit = find(from.ray);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
@@ -73,6 +62,7 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
     front.sample = index;
   }
 
+  const int x = tile.x(pixel), y = tile.y(pixel);
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const V2f choice(unit_float(random), unit_float(mix64(random)));
@@ -85,9 +75,10 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   visible.random = from.ray.random;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
+  SampleStream stream = camera_.stream(x, y, sample);
   find_light(point, stream, scratch, thread, visible, tile);
   expect_light(visible, tile.zone_of_gather_point[visible.gather_point], scratch, sharing);
-  seek(stream, kLightChoice);
+  seek(stream, VertexDimension::kLightChoice);
   choose_targets(point, stream.next1d(), scratch, tile);
   tile.points.push_back(visible);
 }
@@ -119,14 +110,14 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   };
 
   direct_.begin(point, scratch.direct);
-  seek(stream, kLight);
+  seek(stream, VertexDimension::kLight);
   direct_.propose(
       point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
   thread.costs.occlusion.add_candidates(direct_.candidates(), scratch.direct.proved);
   for (const LightPoint& to : scratch.direct.points) {
     propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
   }
-  seek(stream, kLobe);
+  seek(stream, VertexDimension::kLobe);
   const auto sample = point.sample(stream.next3d());
   if (sample) {
     const FibreValue& value = sample->value;

@@ -48,7 +48,7 @@ class PathTracer::FilmSink {
   SampleScratch& scratch_;
 };
 
-PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
+PathTracer::PathTracer(const FrameScene& scene, const Accel& accel, const FilmLayers& layers,
                        const PathOptions& options)
     : scene_(scene),
       accel_(accel),

@@ -7,7 +7,7 @@
 #include "render/accel/accel.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/sample_scratch.h"
 #include "render/light/direct_light.h"
 #include "render/path/path_options.h"
 #include "render/sampling/sample_stream.h"
@@ -52,7 +52,7 @@ template <class Sink>
 class PathWalk {
  public:
   /// Keeps references to its arguments, except `options`.
-  PathWalk(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+  PathWalk(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
            const PathOptions& options)
       : bounces_(static_cast<uint32_t>(scene.render.bounces)),
         accel_(accel),

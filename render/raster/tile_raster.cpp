@@ -29,7 +29,7 @@ Range depths_of(const TileFrame& frame, const Box3f& box) {
 }
 
 /// Where the lines of a pixel are close.
-float reference_depth(const RenderScene& scene, const Accel& accel, const TileFrame& frame, float focus) {
+float reference_depth(const FrameScene& scene, const Accel& accel, const TileFrame& frame, float focus) {
   if (scene.camera.has_lens()) return focus;
   const Box3f all = accel.bounds();
   return all.isEmpty() ? 1.0f : std::max(frame.local(all.center()).z, 0.0f);

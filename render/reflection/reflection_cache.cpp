@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-ReflectionCache::ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
+ReflectionCache::ReflectionCache(const FrameScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                                  MemoryLedger& ledger)
     : keys_(scene), slots_(std::move(cells)) {
   reserved = {};

@@ -21,7 +21,7 @@ class ReflectionCache {
 
   /// Keeps a reference to `scene`. `reserved`: covers the memory of `cells` until the cache charges it
   /// itself.
-  ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
+  ReflectionCache(const FrameScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                   MemoryLedger& ledger);
 
   /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The strands of RIB files as procedurals.
+#include <algorithm>
 #include <limits>
 
 #include "geom/curve_bounds.h"
@@ -103,8 +104,10 @@ StrandCounts rib_counts(const Strands& strands) {
   counts.strands = strands.strand_count();
   counts.points = strands.point_count();
   counts.motion_keys = static_cast<size_t>(strands.motion_keys());
-  for (size_t i = 0; i < counts.strands; ++i)
+  for (size_t i = 0; i < counts.strands; ++i) {
     counts.segments += segment_count(strands.basis(), strands.strand_points(i));
+    counts.longest = std::max<size_t>(counts.longest, strands.strand_points(i));
+  }
   for (const StrandAttribute& a : strands.attributes()) counts.attribute_floats += a.values.size();
   return counts;
 }

@@ -196,6 +196,11 @@ class Measure(unittest.TestCase):
                 self.assertEqual(row["pixels"], "identical")
             else:
                 self.assertIn("render.memory", row["message"])
+        stored = {row["variant"]: row for row in rows if row["variant"].startswith("stored")}
+        self.assertEqual(list(stored), ["stored, first run", "stored", "stored, 25 %", "stored, 10 %", "stored, 5 %"])
+        self.assertGreater(stored["stored"]["chunks_read"], 0)
+        self.assertEqual(stored["stored"]["strands_generated"], 0)
+        self.assertEqual(list((self.path / "out").glob("pelage-*")), [], "the stored fur was left behind")
 
     def test_growth(self):
         self.measure("growth", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")

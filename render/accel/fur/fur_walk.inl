@@ -38,9 +38,9 @@ PELAGE_FUR_INLINE void order(size_t count, uint32_t* references, float* enters) 
 /// Traverses the tree, roughly front to back. Prefetches what will be visited later: leaves are deferred
 /// until a few of them have accumulated, and where the order does not matter every node is deferred for one
 /// visit.
-template <bool kMoving, class Query>
+template <Motion kMotion, class Query>
 PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
-  const QuantisedSlabs<kMoving> slabs(ray);
+  const QuantisedSlabs<kMotion == Motion::kKeys> slabs(ray);
   uint32_t nodes[kStack], leaves[kDeferred + 8];
   float node_enters[kStack], leaf_enters[kDeferred + 8];
   nodes[0] = 0;
@@ -76,7 +76,7 @@ PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& q
     if (leaf_count == 0) return;
     for (size_t i = 0; i < leaf_count; ++i) {
       if (leaf_enters[i] > query.far()) continue;
-      if (test_leaf<kMoving>(tree, FurReference::from_bits(leaves[i]), ray, query)) return;
+      if (test_leaf<kMotion>(tree, FurReference::from_bits(leaves[i]), ray, query)) return;
     }
     leaf_count = 0;
   }

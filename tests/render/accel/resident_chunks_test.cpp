@@ -119,7 +119,7 @@ TEST_P(ResidentChunksScenes, HitsNameTheirStrands) {
   }
   // One scene over everything has no chunks.
   TraceThread thread;
-  const auto whole = chunks.oracle(CurveShape::kFlat, ledger_);
+  const auto whole = chunks.oracle(CurveShape::kFlat);
   for (uint64_t i = 0; i < 50; ++i) EXPECT_FALSE(whole->closest(random_ray(8, i), thread).handle());
 }
 

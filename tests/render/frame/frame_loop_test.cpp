@@ -77,7 +77,7 @@ Film film_after(const std::vector<uint32_t>& passes, FilmLayers layers, int thre
   FrameLoop loop(samples, {workers, ledger, progress}, film, frame_window(kWidth, kHeight, {}, layers.splat),
                  clock);
   for (const uint32_t count : passes) {
-    EXPECT_EQ(loop.pass([count](size_t, uint32_t) { return count; }, count == 1), PassEnd::kDone);
+    EXPECT_EQ(loop.pass({[count](size_t) { return count; }, {}, count == 1}), PassEnd::kDone);
   }
   return film;
 }
@@ -121,7 +121,7 @@ TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {
         FrameLoop loop(samples, {workers, ledger, moments}, film,
                        frame_window(kWidth, kHeight, {}, layers.splat), clock, &moments);
         for (const uint32_t count : {1u, 3u, 11u}) {
-          end = loop.pass([count](size_t, uint32_t) { return count; }, count == 1);
+          end = loop.pass({[count](size_t) { return count; }, {}, count == 1});
           if (end != PassEnd::kDone) break;
         }
         kept = moments.kept();

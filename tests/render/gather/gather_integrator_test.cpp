@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "render/gather/gather_loop.h"
+#include "render/gather/gather_tracer.h"
 #include "render/light/far_light_samples.h"
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
@@ -75,7 +75,7 @@ TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   scene.render.gather.cache = false;  // its memory has the same tag
   const FrameResult free = scene.run({}, 3);
-  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
+  const size_t tile = GatherTracer::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
   // One light is an environment: 32 bytes per stored point (FarLightSamples::bytes()).
@@ -198,7 +198,7 @@ TEST(GatherIntegrator, CountsGatherPointsAndTheirSamples) {
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {
   GatherScene scene;
   scene.image.width = scene.image.height = 20;
-  const uint32_t max = GatherTile::max_samples(scene.lights.size());
+  const uint32_t max = GatherTracer::max_samples(scene.lights.size());
   scene.render.samples = static_cast<int>(max + 3);
   const FrameResult result = scene.run();
   EXPECT_EQ(result.samples, max + 3);

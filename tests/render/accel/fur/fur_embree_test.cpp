@@ -2,11 +2,10 @@
 // The fur tree beside Embree's flat curves: the same ribbons by other means.
 #include <gtest/gtest.h>
 
-#include "base/ledger.h"
 #include "base/parallel.h"
-#include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"
 #include "render/accel/fur/fur_tree.h"
+#include "tests/render/accel/embree_accel.h"
 #include "tests/render/accel/fur/fur_grooms.h"
 
 namespace pelage {
@@ -57,13 +56,12 @@ TEST(FurBesideEmbree, meets_the_same_segments) {
   const std::vector<Ray> rays = clear_rays(strands, 12);
   ASSERT_GT(rays.size(), kRays / 2);
   const Workers workers(1);
-  MemoryLedger ledger;
   double different[3] = {};
   size_t met = 0, turned = 0;
   for (int rate : {4, 8, 16}) {
     EmbreeOptions options;
     options.tessellation_rate = rate;
-    const EmbreeAccel embree({{&strands, 0, {}}}, {}, options, ledger, workers);
+    const EmbreeAccel embree({{&strands, 0, {}}}, {}, options, workers);
     TraceThread thread;
     size_t others = 0;
     met = 0;

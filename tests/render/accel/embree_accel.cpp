@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/embree_accel.h"
+#include "tests/render/accel/embree_accel.h"
 
 #include <algorithm>
 
+#include "render/accel/crossings.h"
 #include "render/accel/embree_query.h"
-#include "render/accel/embree_scene.h"
 
 namespace pelage {
 namespace {
@@ -91,12 +91,6 @@ void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
 }
 
 }  // namespace
-
-EmbreeAccel::EmbreeAccel(std::vector<AccelStrands> strands, std::vector<const SkinMesh*> skins,
-                         const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers)
-    : scene_(std::make_unique<EmbreeScene>(strands, skins, options, ledger, workers)) {}
-
-EmbreeAccel::~EmbreeAccel() = default;
 
 Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   Hit hit;
