@@ -45,7 +45,7 @@ void rays_over_raster(benchmark::State& state) {
       for (int x = tile.x0; x < tile.x1; ++x, ++pixel) {
         for (uint32_t i = 0; i < count; ++i) {
           SampleStream stream = samples.stream(x, y, i);
-          use(pixel, i, samples.draw(x, y, i, stream).ray);
+          use(pixel, i, samples.sample(x, y, i, stream).ray);
         }
       }
     }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
 
 namespace pelage {
+
+/// Throws Error (kArguments).
+[[noreturn]] void fail_arguments(const std::string& message);
 
 /// Throws Error (kArguments) for the arguments that the parser of a command did not use. For a flag, the
 /// message suggests the nearest known one.

@@ -11,12 +11,11 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "cli/argument_errors.h"
 #include "lab/measure/shading_curves.h"
 
 namespace pelage {
 namespace {
-
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
 Experiment parse_experiment(const std::string& text) {
   static const std::map<std::string, Experiment> built{{"bounds", Experiment::kBounds},
@@ -31,20 +30,20 @@ Experiment parse_experiment(const std::string& text) {
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
-    fail("experiment " + quote(text) +
-         " does not exist yet; choose one of bounces, bounds, growth, lod, residency, samplers and "
-         "shading");
-  fail("unknown experiment " + quote(text) + suggest(text, names));
+    fail_arguments("experiment " + quote(text) +
+                   " does not exist yet; choose one of bounces, bounds, growth, lod, residency, samplers and "
+                   "shading");
+  fail_arguments("unknown experiment " + quote(text) + suggest(text, names));
 }
 
 void check_parts(Experiment experiment, const std::vector<std::string>& parts) {
   if (!parts.empty() && experiment != Experiment::kLod && experiment != Experiment::kShading)
-    fail("--parts: only lod and shading have parts");
+    fail_arguments("--parts: only lod and shading have parts");
   std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
   if (experiment == Experiment::kShading) known.assign(std::begin(kShadingParts), std::end(kShadingParts));
   for (const std::string& part : parts) {
     if (std::find(known.begin(), known.end(), part) == known.end())
-      fail("--parts: unknown part " + quote(part) + suggest(part, known));
+      fail_arguments("--parts: unknown part " + quote(part) + suggest(part, known));
   }
 }
 

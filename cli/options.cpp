@@ -251,18 +251,16 @@ const std::map<std::string, Command>& command_names() {
   return names;
 }
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
 // Otherwise an unknown first word would be reported as a superfluous argument.
 void check_command(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) fail("expected a command; see 'pelage --help'");
+  if (arguments.empty()) fail_arguments("expected a command; see 'pelage --help'");
   if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
   std::vector<std::string> names;
   for (const auto& [name, command] : command_names()) names.push_back(name);
   std::string hint = did_you_mean(arguments[0], names);
   for (const std::string& name : hint.empty() ? names : std::vector<std::string>())
     hint += (hint.empty() ? "; expected one of " : ", ") + name;
-  fail("unknown command " + quote(arguments[0]) + hint);
+  fail_arguments("unknown command " + quote(arguments[0]) + hint);
 }
 
 ProgressStyle parse_progress(const Texts& texts) {
@@ -271,7 +269,7 @@ ProgressStyle parse_progress(const Texts& texts) {
   const std::vector<std::string> names(std::begin(kProgressNames), std::end(kProgressNames));
   const auto found = std::find(names.begin(), names.end(), texts.progress);
   if (found == names.end())
-    fail("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
+    fail_arguments("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
   return static_cast<ProgressStyle>(found - names.begin());
 }
 
@@ -279,7 +277,7 @@ CurveBasis parse_basis(const std::string& text) {
   const std::vector<std::string> names(std::begin(EnumNames<CurveBasis>::names),
                                        std::end(EnumNames<CurveBasis>::names));
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) fail("--basis " + quote(text) + " is not known" + suggest(text, names));
+  if (found == names.end()) fail_arguments("--basis " + quote(text) + " is not known" + suggest(text, names));
   return static_cast<CurveBasis>(found - names.begin());
 }
 
@@ -287,7 +285,7 @@ void check_models(const std::vector<std::string>& models) {
   const std::vector<std::string>& known = fibre_model_names();
   for (const std::string& model : models) {
     if (std::find(known.begin(), known.end(), model) == known.end())
-      fail("--models: unknown fibre model " + quote(model) + suggest(model, known));
+      fail_arguments("--models: unknown fibre model " + quote(model) + suggest(model, known));
   }
 }
 
@@ -296,7 +294,7 @@ void interpret(const Texts& texts, Options& options) {
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))
-      fail("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
+      fail_arguments("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
     options.overrides.push_back({"render.memory", texts.memory});
     const auto bytes =
         static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
@@ -353,7 +351,8 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
     if (chosen == &app && app.remaining_size() > 0) fail_extras(app);
     std::string message = error.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
-    fail(message + (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));
+    fail_arguments(message +
+                   (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));
   }
   check_file_names(*chosen);
   options.command = command_names().at(arguments[0]);

@@ -59,7 +59,7 @@ std::vector<LightTerm> light_terms(const Film& film, const LightSet& lights, int
 
 float opacity_at(const RenderScene& frame, const SeenSurface& surface) {
   const FurPart& part = frame.fur[surface.hit.part];
-  const Strands& strand = surface.met.strand;
+  const Strands& strand = surface.hit_geometry.strand;
   const FibreParams& fibre = *fibre_params(frame.materials[part.material]);
   std::vector<float> opacities = point_opacities(fibre.opacity, strand, part);
   if (opacities.empty()) return 1;
@@ -101,7 +101,7 @@ FrameSettings with_all_layers(const RenderScene& scene) {
 
 SkinWhy explain_skin(const RenderScene& scene, const SeenSurface& surface) {
   const SkinPart& part = scene.skins[surface.hit.part];
-  const SkinMesh& triangle = surface.met.triangle;
+  const SkinMesh& triangle = surface.hit_geometry.triangle;
   SkinWhy why{part.name, triangle.faces[0], skin_parameters(triangle, surface.hit), V2f(0)};
   if (part.rest) why.uv = part.rest->topology().texture_coordinates(why.face, why.place.x, why.place.y);
   return why;

@@ -161,7 +161,7 @@ float TabulatedScatter::density(const FibreAngles& a) const {
   return sum;
 }
 
-SampledAngles TabulatedScatter::draw(const V3f& u) const {
+SampledAngles TabulatedScatter::sample(const V3f& u) const {
   int k = 0;
   float rest = u.z;
   while (k < 3 && rest >= weights_[k]) rest -= weights_[k++];

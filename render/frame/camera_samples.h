@@ -10,9 +10,8 @@
 
 namespace pelage {
 
-/// Index of the draw from SampleStream for each use of random numbers in a sample. The indices do not depend
-/// on the course of the path. Each vertex of the path has several draws; the draws of the first vertex start
-/// at kFirstVertex.
+/// Dimension of SampleStream for each use of random numbers in a sample. Dimensions do not depend on the
+/// course of the path. Each vertex of the path has several; those of the first vertex start at kFirstVertex.
 enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 /// The dimensions of a path's first vertex, from SampleDimension::kFirstVertex on.
 enum class VertexDimension : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4 };
@@ -36,7 +35,7 @@ class CameraSamples {
   /// Returns the random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
   /// Returns the camera ray of a sample. `stream`: the result of stream() for the same sample.
-  CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
+  CameraSample sample(int x, int y, uint32_t sample, SampleStream& stream) const;
 
  private:
   const FrameScene scene_;

@@ -15,22 +15,22 @@ namespace pelage {
 
 class SkinShadows;
 
-/// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members, `met` is
-/// the geometry of the hit, which the accelerator has copied. Thread safety: const members may be called from
-/// any thread.
+/// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members,
+/// `hit_geometry` is the geometry of the hit, which the accelerator has copied. Thread safety: const members
+/// may be called from any thread.
 class FrameShading {
  public:
   /// `balls`: inside the skins, for the points of scatter_point(); null: none. Must outlive this object.
   explicit FrameShading(const FrameScene& scene, const SkinShadows* balls = nullptr);
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
-  ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
   /// Returns the colour of the material at a hit.
-  Rgb color(const Hit& hit, const HitGeometry& met) const;
+  Rgb color(const Hit& hit, const HitGeometry& hit_geometry) const;
   /// Returns VisibleSurface::depth of a hit of a camera ray.
   float depth(const Ray& ray, const Hit& hit) const;
   /// Returns the film data of a hit of a camera ray.
-  VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
 
  private:
   struct Fibre {

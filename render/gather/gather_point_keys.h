@@ -50,7 +50,7 @@ class GatherPointKeys {
   /// Returns the gather point that a hit is assigned to. `random`: two random numbers in [0, 1), which select
   /// one of the gather points around the hit.
   /// `recent`: of the calling thread.
-  GatherPointKey of(const Hit& hit, const HitGeometry& met, const V2f& random,
+  GatherPointKey of(const Hit& hit, const HitGeometry& hit_geometry, const V2f& random,
                     RecentGatherPoints& recent) const;
 
  private:

@@ -55,9 +55,10 @@ GatherTracer::Memory GatherTracer::reserve(const FrameScene& scene, const Job& j
   const auto limit = static_cast<int64_t>(render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
-  const auto drawn = static_cast<int64_t>(render.gather.reuse ? FarLightSamples::bytes(scene.lights) : 0);
+  const auto far_lights =
+      static_cast<int64_t>(render.gather.reuse ? FarLightSamples::bytes(scene.lights) : 0);
   Memory memory{tiles,
-                pelage::reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + drawn,
+                pelage::reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + far_lights,
                                 "the sample buffer of the tiles that are rendered at once"),
                 {}};
   if (render.uses_cache(scene.skins.size())) memory.cache = CacheFill::reserve(scene, job);
@@ -175,14 +176,14 @@ bool GatherTracer::look(uint32_t first, uint32_t count, const Job& job, Scratch&
     if (job.progress.cancelled()) return false;
     for (uint32_t sample = first; sample < first + count; ++sample) {
       if (raster_) {
-        const uint32_t drawn = sample - scratch.first_sample;
+        const uint32_t index = sample - scratch.first_sample;
         const Hit hit = scratch.costs.rays.measure(RayKind::kCamera, scratch.thread.counts, [&] {
-          return raster_->closest(pixel, drawn, scratch.thread, scratch.raster);
+          return raster_->closest(pixel, index, scratch.thread, scratch.raster);
         });
-        add(pixel, sample, TileRaster::sample(pixel, drawn, scratch.raster), hit);
+        add(pixel, sample, TileRaster::sample(pixel, index, scratch.raster), hit);
       } else {
         SampleStream stream = camera_.stream(tile.x(pixel), tile.y(pixel), sample);
-        const CameraSample from = camera_.draw(tile.x(pixel), tile.y(pixel), sample, stream);
+        const CameraSample from = camera_.sample(tile.x(pixel), tile.y(pixel), sample, stream);
         add(pixel, sample, from, scratch.closest(RayKind::kCamera, accel_, from.ray));
       }
     }
@@ -228,7 +229,7 @@ void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
     }
     task.add(samples.x(from.pixel) - task.left(), samples.y(from.pixel) - task.top(), scratch);
   }
-  scratch.gather_points += {.gather_points = static_cast<int64_t>(samples.zone_of_gather_point.size()),
+  scratch.gather_points += {.count = static_cast<int64_t>(samples.zone_of_gather_point.size()),
                             .samples = static_cast<int64_t>(samples.points.size())};
   task.advance(samples.samples.size());
 }

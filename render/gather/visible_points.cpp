@@ -57,7 +57,7 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   film_sample.offset = from.offset;
   TileSamples::Front& front = tile.fronts[pixel];
   if (front.of_pixel.yields_to(shading_.depth(from.ray, hit), film_sample.inside_pixel())) {
-    const VisibleSurface surface = shading_.visible_surface(from.ray, hit, thread.thread.met);
+    const VisibleSurface surface = shading_.visible_surface(from.ray, hit, thread.thread.hit_geometry);
     front.of_pixel.offer(surface, film_sample.inside_pixel());
     front.sample = index;
   }
@@ -66,14 +66,14 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const V2f choice(unit_float(random), unit_float(mix64(random)));
-  const GatherPointKey key = keys_.of(hit, thread.thread.met, choice, scratch.strands);
+  const GatherPointKey key = keys_.of(hit, thread.thread.hit_geometry, choice, scratch.strands);
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
   visible.gather_point = gather_point_of(key, scratch, tile);
   visible.time = from.ray.time;
   visible.random = from.ray.random;
-  const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.hit_geometry);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
   SampleStream stream = camera_.stream(x, y, sample);
   find_light(point, stream, scratch, thread, visible, tile);

@@ -33,14 +33,14 @@ DiscreteSample sample_discrete(const double* weights, int count, float u) {
   double total = 0;
   for (int i = 0; i < count; ++i) total += weights[i];
   double left = static_cast<double>(u) * total;
-  DiscreteSample draw;
+  DiscreteSample choice;
   for (int i = 0; i < count; ++i) {
     if (!(weights[i] > 0)) continue;
-    draw = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
+    choice = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
     if (left < weights[i]) break;
     left -= weights[i];  // the last one gets the rounding remainder
   }
-  return draw;
+  return choice;
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, c
   return {{x + drawn_column.index, y + drawn_row.index}, {drawn_column.rest, drawn_row.rest}};
 }
 
-EnvironmentMap::Draw EnvironmentMap::sample(const V2f& u) const {
+EnvironmentMap::Sample EnvironmentMap::sample(const V2f& u) const {
   const GuidedSample row = sample_guided(row_cdf_, row_guide_, u.y);
   const auto columns = static_cast<size_t>(columns_);
   const GuidedSample column =

@@ -72,10 +72,12 @@ class TileRaster {
   static const CameraSample& sample(uint32_t pixel, uint32_t sample, const Scratch& scratch) {
     return scratch.samples[slot(pixel, sample, scratch)];
   }
-  /// Returns what this sample sees. Like Accel::closest(), stores the geometry in `thread.met`. Call end()
-  /// before other code uses `thread.met`.
+  /// Returns what this sample sees. Like Accel::closest(), stores the geometry in `thread.hit_geometry`. Call
+  /// end() before other code uses `thread.hit_geometry`.
   Hit closest(uint32_t pixel, uint32_t sample, TraceThread& thread, Scratch& scratch) const;
-  static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
+  static void end(TraceThread& thread, Scratch& scratch) {
+    scratch.held.take_back(thread.hit_geometry.strand);
+  }
 
  private:
   /// The frame and the start depths of the lines of a tile.

@@ -39,9 +39,9 @@ class CellKeys {
   /// Keeps a reference to `scene`.
   explicit CellKeys(const FrameScene& scene) : scene_(scene), view_(scene.camera.lod_view()) {}
 
-  /// Returns the cells of the hit of a ray. `met`: the geometry that was hit. Empty where a cell cannot hold
-  /// the reflected light: on glossy skins, which scatter too narrow a lobe.
-  std::optional<CellPath> of(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  /// Returns the cells of the hit of a ray. `hit_geometry`: the geometry that was hit. Empty where a cell
+  /// cannot hold the reflected light: on glossy skins, which scatter too narrow a lobe.
+  std::optional<CellPath> of(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
 
  private:
   const FrameScene scene_;

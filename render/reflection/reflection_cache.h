@@ -26,7 +26,7 @@ class ReflectionCache {
 
   /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few
   /// paths arrived.
-  ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
   size_t bytes() const { return slots_.bytes(); }
 
  private:

@@ -146,10 +146,10 @@ class Measure(unittest.TestCase):
                 self.assertEqual([few["samples"], many["samples"]], [4, 16])
                 self.assertLess(many["rel_mse"], few["rel_mse"])
             if "gather" in curve:
-                self.assertGreater(many["knots"], 0)
+                self.assertGreater(many["gather_points"], 0)
                 self.assertGreater(many["reuse_bias_deviation"], 0)
             else:
-                self.assertEqual(many["knots"], 0)
+                self.assertEqual(many["gather_points"], 0)
                 self.assertIsNone(many["reuse_bias"])
             self.assertIsNone(few["reuse_bias"])
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_gather_point"], 1)

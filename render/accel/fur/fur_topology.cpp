@@ -256,7 +256,7 @@ std::vector<FurPiece> make_pieces(const SnappedStrands& strands, const FurFrame&
     Four low = four(0), high = four(0);
     for (int key = 0; key < strands.motion_keys(); ++key) {
       const SnappedSegment segment = strands.segment(place, key);
-      if (!SnappedStrands::is_drawable(segment)) return;
+      if (!SnappedStrands::is_visible(segment)) return;
       const PieceBounds hull = hull_of(frame(segment));
       low = low + hull.low, high = high + hull.high;
     }

@@ -55,15 +55,15 @@ PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& q
       if (Query::kOrdered && next_enter > query.far()) continue;
       const std::byte* node = tree.nodes + FurReference::from_bits(next).node_offset();
       V enter = all(ray.near);
-      const auto met = slabs.intersect(node, enter, all(query.far()));
+      const auto entered = slabs.intersect(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));
       const auto is_leaf =
           hn::MaskFromVec(hn::BitCast(kFloats, hn::BroadcastSignBit(hn::BitCast(kInts, references))));
       const auto is_node = hn::RebindMask(kFloats, hn::Gt(hn::BitCast(kInts, references), hn::Zero(kInts)));
       const size_t more_nodes =
-          append(references, enter, hn::And(met, is_node), nodes + node_count, node_enters + node_count);
+          append(references, enter, hn::And(entered, is_node), nodes + node_count, node_enters + node_count);
       const size_t more_leaves =
-          append(references, enter, hn::And(met, is_leaf), leaves + leaf_count, leaf_enters + leaf_count);
+          append(references, enter, hn::And(entered, is_leaf), leaves + leaf_count, leaf_enters + leaf_count);
       if (Query::kOrdered && more_nodes > 1) order(more_nodes, nodes + node_count, node_enters + node_count);
       // Always all four: a loop with an early exit costs more than unnecessary prefetches.
       for (size_t i = 0; i < 4; ++i)

@@ -63,7 +63,7 @@ TEST_F(ChunkAccelTest, EqualDistancesAreDecidedByStrandIdAcrossChunks) {
       const Hit hit = accel->closest(along_z(x), thread);
       ASSERT_EQ(hit.kind, HitKind::kStrand) << x;
       EXPECT_EQ(hit.strand_id, 3u) << x;
-      EXPECT_EQ(thread.met.strand.id(0), 3u);
+      EXPECT_EQ(thread.hit_geometry.strand.id(0), 3u);
     }
   }
 }

@@ -186,13 +186,13 @@ TEST(GatherIntegrator, CountsGatherPointsAndTheirSamples) {
   const GatherPointStatistics alone = scene.run({}, 1).statistics.gather_points;
   EXPECT_GT(alone.samples, 0);
   EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "no more than the samples of the frame";
-  EXPECT_EQ(alone.gather_points, alone.samples);
+  EXPECT_EQ(alone.count, alone.samples);
   scene.render.gather.reuse = true;
   const GatherPointStatistics shared = scene.run({}, 1).statistics.gather_points;
   EXPECT_EQ(shared.samples, alone.samples);
-  EXPECT_GT(shared.gather_points, 0);
-  EXPECT_LT(shared.gather_points, shared.samples / 2);
-  EXPECT_EQ(scene.run({}, 4).statistics.gather_points.gather_points, shared.gather_points);
+  EXPECT_GT(shared.count, 0);
+  EXPECT_LT(shared.count, shared.samples / 2);
+  EXPECT_EQ(scene.run({}, 4).statistics.gather_points.count, shared.count);
 }
 
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {
