@@ -91,8 +91,8 @@ std::string statistics_json(const Statistics& s) {
       {"time_limited", s.time_limited},
       {"samples_rejected", s.frames.samples_rejected},
       {"clamped_fraction", s.clamped_fraction},
-      {"knots", s.frames.knots.knots},
-      {"knot_samples", s.frames.knots.samples},
+      {"gather_points", s.frames.gather_points.count},
+      {"gather_point_samples", s.frames.gather_points.samples},
       {"reflection_cells", s.frames.reflections.cells},
       {"reflection_paths", s.frames.reflections.paths},
       {"reflection_slices", s.frames.reflections.slices},
@@ -103,8 +103,6 @@ std::string statistics_json(const Statistics& s) {
       {"shadow_candidates", s.frames.occlusion.candidates},
       {"shadow_candidates_proved", s.frames.occlusion.candidates_proved},
       {"rays_skipped_skin", s.frames.occlusion.rays_proved},
-      {"rays_near", s.frames.trace.rays_near},
-      {"rays_far", s.frames.trace.rays_far},
       {"stages_s", stages_json(s)},
   };
   if (!s.process.timeline.empty()) {

@@ -31,8 +31,6 @@ constexpr float kMinBackFacing = 0.2f;
 // Max width of a strand relative to the blur across it. The variance of a blurred pixel is s^2 / (lambda N)
 // for any blur: with wider strands, fur looks streaked.
 constexpr float kHidden = 0.1f;
-// Min length of a strand that distant() has widened, in widths.
-constexpr float kThinnest = 4;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kMeanSine = 2 / kPi;  // of lines in random directions
 
@@ -102,20 +100,6 @@ float Simplification::share(float pixels, float motion, float across, float conf
   return std::min(std::max(share * budget_, min_kept(width / widest)), 1.0f);
 }
 
-Simplification Simplification::distant(float fraction, const WidthFit& fit) const {
-  Simplification result = *this;
-  result.fit_ = fit;
-  result.fraction_ = fraction;
-  result.params_.contrast = false;
-  result.params_.width_gain = true;
-  return result;
-}
-
-float Simplification::distant_share(float seen) const {
-  if (fraction_ >= 1 || !(stats_.length > 0)) return seen;
-  return std::max(seen * fraction_, std::min(seen, kThinnest * stats_.width / stats_.length));
-}
-
 float Simplification::min_kept(float share) const {
   return std::max(share, params_.min_share) * std::max(budget_, 1.0f);
 }
@@ -136,9 +120,9 @@ float Simplification::share(const RootPlace& root) const {
   const float pixels = params_.quality * pixels_per_unit(view_, root.open);
   const auto [motion, across, confusion] = blur(root);
   const float seen = share(pixels, motion * pixels, across * pixels, confusion * pixels);
-  if (!params_.back_facing) return distant_share(seen);
+  if (!params_.back_facing) return seen;
   const float turned = seen * back_facing_share(facing(view_, root.open, root.normal));
-  return distant_share(std::min(1.0f, std::max(turned, min_kept(0))));
+  return std::min(1.0f, std::max(turned, min_kept(0)));
 }
 
 LodMeasures Simplification::measures(const RootPlace& root) const {
@@ -163,7 +147,7 @@ LodMeasures Simplification::measures(const RootPlace& root) const {
 float Simplification::max_share(float distance) const {
   // Shares increase with the size and decrease with every blur. Allow for rounding of the roots.
   const float pixels = params_.quality * pixels_per_unit(view_, distance);
-  return std::min(1.0f, distant_share(share(pixels, 0, 0, 0)) * (1 + 1e-4f));
+  return std::min(1.0f, share(pixels, 0, 0, 0) * (1 + 1e-4f));
 }
 
 float Simplification::fade_half_width(float share) { return std::min({kMaxFade, share / 4, 1 - share}); }
@@ -175,10 +159,7 @@ float Simplification::fade(float share, float priority) {
 }
 
 float Simplification::gain(float share) const {
-  return params_.width_gain && share < 1 ? unfitted_gain(share) * fit_.ratio(share, fraction_) : 1.0f;
-}
-
-float Simplification::unfitted_gain(float share) const {
+  if (!params_.width_gain || share >= 1) return 1;
   const double r = std::clamp(stats_.area_share, kMinAreaShare, 0.5f);
   const float at = std::sqrt(share) * kAreaSteps;
   const auto before = std::min(static_cast<size_t>(at), kAreaSteps - 1);
@@ -217,20 +198,7 @@ float Simplification::max_width_factor(float distance) const {
   if (!params_.motion_blur && !params_.depth_of_field) min = std::max(min, share(pixels, 0, 0, 0));
   min = std::min(min, 1.0f) * (params_.back_facing ? kMinBackFacing : 1.0f);
   min = std::max(min, min_kept(0));
-  return max_gain(distant_share(std::min(min, 1.0f))) * (1 + 1e-4f);
-}
-
-float Simplification::max_gain(float min_share) const {
-  if (!params_.width_gain || fraction_ == 1) return gain(min_share);
-  // Small steps, because the two factors may change in opposite directions.
-  constexpr float kStep = 1.05f;
-  float max = 1;
-  for (float low = min_share, high = 1; low < 1; low = high) {
-    high = std::min(low * kStep, fit_.end_of_range(low, fraction_));
-    max =
-        std::max(max, unfitted_gain(low) * std::max(fit_.ratio(low, fraction_), fit_.ratio(high, fraction_)));
-  }
-  return max;
+  return gain(std::min(min, 1.0f)) * (1 + 1e-4f);
 }
 
 float Simplification::contrast(float share) const {
@@ -249,12 +217,11 @@ ContentHash Simplification::hash() const {
   const SimplificationParams& p = params_;
   add(p.quality, p.size, p.motion_blur, p.depth_of_field, p.back_facing, p.width_gain, p.contrast,
       p.fewer_points, p.blur_strength, p.min_share, budget_, stats_.width, stats_.length, stats_.area_share,
-      stats_.density, static_cast<uint32_t>(stats_.even), fraction_);
+      stats_.density, static_cast<uint32_t>(stats_.even));
   for (const LodPose* pose : {&view_.open, &view_.close}) {
     for (const V3f* v : {&pose->position, &pose->right, &pose->up, &pose->forward}) add(v->x, v->y, v->z);
     add(pose->focal_pixels);
   }
-  for (const float factor : fit_.factors) add(factor);
   add(view_.near_distance, view_.lens_diameter, view_.focus_distance);
   return hasher.digest();
 }

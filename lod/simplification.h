@@ -7,7 +7,6 @@
 #include "base/hash.h"
 #include "lod/lod_view.h"
 #include "lod/simplification_params.h"
-#include "lod/width_fit.h"
 
 namespace pelage {
 
@@ -61,17 +60,9 @@ class Simplification {
   Simplification(const SimplificationParams& params, const LodView& view, const CoatStats& stats,
                  float budget);
 
-  /// Returns the simplification of the same coat for rays that see it from afar. It keeps `fraction` of the
-  /// strands that share() keeps. The fraction is raised where necessary so that no widened strand exceeds a
-  /// quarter of its length. Colours keep their contrast. `fit`: factors on gain().
-  Simplification distant(float fraction, const WidthFit& fit = {}) const;
-
   const LodView& view() const { return view_; }
   /// Returns the mean number of strands that cover a point of the skin at full detail; 0 when unknown.
   float depth() const { return stats_.density * stats_.width * stats_.length; }
-
-  /// The fraction that was passed to distant(); 1 without it.
-  float fraction() const { return fraction_; }
 
   /// Returns the share lambda in (0, 1] for strands with this root.
   ///
@@ -143,21 +134,13 @@ class Simplification {
   /// Returns the minimum share: `share`, which the max width requires, or min_share if larger. A budget above
   /// 1 increases the minimum; a budget below 1 does not decrease it.
   float min_kept(float share) const;
-  /// Returns the share of which share() is `seen` without distant().
-  float distant_share(float seen) const;
   void tabulate_area();
-  /// Returns gain() without the factors of distant(): it decreases with the share.
-  float unfitted_gain(float share) const;
-  /// Returns an upper bound of gain() over all shares from `min_share` to 1.
-  float max_gain(float min_share) const;
 
   static constexpr size_t kAreaSteps = 32;
   SimplificationParams params_;
   LodView view_;
   CoatStats stats_;
   float budget_;
-  float fraction_ = 1;  // of distant()
-  WidthFit fit_;
   std::array<float, kAreaSteps + 1>
       area_;  // factor by which even spacing reduces gain(); index: sqrt(share) * kAreaSteps
 };

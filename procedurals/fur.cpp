@@ -34,12 +34,9 @@ Box3f bound_of(const std::vector<std::unique_ptr<Procedural>>& chunks, BoundSpan
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin,
                              const std::optional<Simplification>& lod,
-                             std::shared_ptr<const CoatDirection> direction,
-                             std::shared_ptr<const EvenPriorities> priorities)
+                             std::shared_ptr<const CoatDirection> direction)
     : groom_(std::move(groom)), skin_(std::move(skin)) {
-  if (lod)
-    detail_ =
-        std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(direction), std::move(priorities));
+  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(direction));
   skin_->reserve_for_leaves(*groom_, detail_ != nullptr);
 }
 

@@ -17,8 +17,7 @@ class FurProcedural final : public Procedural {
   /// into ThinnedFurProcedurals, each of which has the kept strands of one or more leaves.
   FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
                 const std::optional<Simplification>& lod = {},
-                std::shared_ptr<const CoatDirection> direction = {},
-                std::shared_ptr<const EvenPriorities> priorities = {});
+                std::shared_ptr<const CoatDirection> direction = {});
 
   Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;

@@ -90,7 +90,8 @@ Box3f ThinnedFurProcedural::bound(BoundSpan span) const {
 
 StrandCounts ThinnedFurProcedural::counts() const {
   StrandCounts sum;
-  for (size_t leaf = first_; leaf < end_; ++leaf) sum += detail_->counts(leaf);
+  for (size_t leaf = first_; leaf < end_; ++leaf)
+    sum += detail_->groom().counts(leaf, detail_->candidates(leaf));
   sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
   if (detail_->groom().grows_on_skin()) sum.attribute_floats += RootDetail::kFloats * sum.strands;
   return sum;

@@ -3,7 +3,6 @@
 #include "world/compose.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -38,8 +37,8 @@ class Composer {
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
-    const std::vector<FrameCharacter> drawn = frame_characters(scene_, assets_);
-    for (const FrameCharacter& character : drawn) {
+    const std::vector<FrameCharacter> characters = frame_characters(scene_, assets_);
+    for (const FrameCharacter& character : characters) {
       job_.check_stop();
       add(character, scene_.render.lod.enabled);
     }
@@ -91,26 +90,9 @@ class Composer {
       fur.procedurals.push_back(std::make_unique<FurProcedural>(
           coat, posed, fur.lod, reduced ? detail_.direction(*coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
-      if (scene_.render.occlusion_detail) fur.distant = distant_fur(coat, posed, skin.rest, reduced);
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
     }
-  }
-
-  /// Returns the coat as secondary rays see it from afar.
-  DistantFur distant_fur(const std::shared_ptr<const Groom>& coat,
-                         const std::shared_ptr<const PosedCharacterSkin>& posed,
-                         const std::shared_ptr<const LimitSurface>& rest, bool reduced) {
-    DistantFur distant;
-    const auto found = detail_.distant(*coat, rest.get(), *posed, reduced);
-    if (!found) return distant;
-    auto fur = std::make_unique<FurProcedural>(
-        coat, posed, found->lod, reduced ? detail_.direction(*coat, rest) : nullptr, found->priorities);
-    distant.lod = found->lod;
-    // Where fewer strands are kept, they are farther apart.
-    distant.from = found->from / std::sqrt(fur->detail()->max_share() / found->lod.fraction());
-    distant.procedurals.push_back(std::move(fur));
-    return distant;
   }
 
   void count(const Groom& groom, const PosedCharacterSkin& skin) {

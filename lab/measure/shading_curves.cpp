@@ -43,26 +43,11 @@ ShadingCurve switched(ShadingCurve curve, const char* key, bool scene_value) {
   return curve;
 }
 
-/// Everything that may save shadow rays or make them cheaper, switched on together; and all but one of it.
-std::vector<ShadingCurve> together_curves() {
-  const std::pair<const char*, const char*> settings[] = {
-      {"skin_ball", "exact"}, {"screen_door", "true"}, {"occlusion_detail", "true"}};
-  const auto all_but = [&](ShadingCurve curve, const std::string& missing) {
-    for (const auto& [key, value] : settings) {
-      const char* off = std::string(key) == "skin_ball" ? "off" : "false";
-      curve.settings.emplace_back(fmt::format("render.{}", key), key == missing ? off : value);
-    }
-    return curve;
-  };
-  std::vector<ShadingCurve> curves{all_but(path("together", "path, together", "drawn"), "")};
-  for (const auto& [key, value] : settings) {
-    ShadingCurve curve = all_but(path("", "path, together without ", "drawn"), key);
-    curve.id = fmt::format("together_{}", key);
-    curve.title += key;
-    curves.push_back(std::move(curve));
-  }
-  curves.push_back(all_but(gather("gather_together", "gather, together"), ""));
-  return curves;
+/// A curve with everything that may save shadow rays or make them cheaper.
+ShadingCurve with_all(ShadingCurve curve) {
+  curve.settings.emplace_back("render.skin_ball", "exact");
+  curve.settings.emplace_back("render.screen_door", "true");
+  return curve;
 }
 
 }  // namespace
@@ -104,12 +89,12 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
   curves.back().settings.back().second = "drawn";
   for (const ShadingCurve& curve : {curves[0], gather("", "gather")}) {
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
-    curves.push_back(switched(curve, "occlusion_detail", scene.render.occlusion_detail));
   }
   for (ShadingCurve& curve : curves) curve = with_balls(std::move(curve), "off");
   curves.push_back(with_balls(path("skin_ball", "path, skin_ball: exact", "drawn"), "exact"));
   curves.push_back(with_balls(gather("gather_skin_ball", "gather, skin_ball: exact"), "exact"));
-  for (ShadingCurve& curve : together_curves()) curves.push_back(std::move(curve));
+  curves.push_back(with_all(path("together", "path, together", "drawn")));
+  curves.push_back(with_all(gather("gather_together", "gather, together")));
   const std::string same = same_as_gather(scene);
   std::erase_if(curves, [&](const ShadingCurve& curve) { return curve.id == same; });
   std::erase_if(curves, [&](const ShadingCurve& curve) {

@@ -10,31 +10,16 @@
 namespace pelage {
 
 /// Names of the ways to render that `measure shading` compares. `path` is always among them.
-inline constexpr const char* kShadingParts[] = {"path",
-                                                "splatted",
-                                                "adaptive",
-                                                "gather",
-                                                "visibility",
-                                                "reuse",
-                                                "spacing",
-                                                "skin_spacing",
-                                                "cells",
-                                                "light_rays",
-                                                "paths",
-                                                "cache",
-                                                "no_cache",
-                                                "drawn",
-                                                "screen_door",
-                                                "occlusion_detail",
-                                                "gather_screen_door",
-                                                "gather_occlusion_detail",
-                                                "skin_ball",
-                                                "gather_skin_ball",
-                                                "together",
-                                                "together_skin_ball",
-                                                "together_screen_door",
-                                                "together_occlusion_detail",
-                                                "gather_together"};
+inline constexpr const char* kShadingParts[] = {"path",        "splatted",
+                                                "adaptive",    "gather",
+                                                "visibility",  "reuse",
+                                                "spacing",     "skin_spacing",
+                                                "cells",       "light_rays",
+                                                "paths",       "cache",
+                                                "no_cache",    "drawn",
+                                                "screen_door", "gather_screen_door",
+                                                "skin_ball",   "gather_skin_ball",
+                                                "together",    "gather_together"};
 
 /// One way to render, which is measured with several sample counts. Its results are one line in the plots of
 /// error over CPU time.

@@ -154,15 +154,14 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
                                     {"variant", "samples", "cpu_s", "cpu_least_s", "cpu_most_s", "rel_mse",
                                      "rel_mse_deviation", "block_rel_mse", "bias"},
                                     "Error of each picture.")}});
-  std::vector<std::string> work{"variant",     "cpu_s",         "rays_camera",
-                                "rays_shadow", "rays_indirect", "candidates_proved",
-                                "rays_proved", "rays_near",     "rays_far"};
+  std::vector<std::string> work{
+      "variant", "cpu_s", "rays_camera", "rays_shadow", "rays_indirect", "candidates_proved", "rays_proved"};
   for (const std::string& key : keys_with(report.data, "cpu_")) {
     if (key.ends_with("_s") && key != "cpu_s" && key != "cpu_least_s" && key != "cpu_most_s")
       work.push_back(key);
   }
   work.insert(work.end(),
-              {"knots", "samples_per_gather_point", "reflection_cells", "reflection_paths",
+              {"gather_points", "samples_per_gather_point", "reflection_cells", "reflection_paths",
                "reflection_lookups", "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
   report.sections.push_back(
       {"Rays, gather points and memory", {table(is_measured, work, "Work of each run.")}});

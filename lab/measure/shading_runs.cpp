@@ -63,8 +63,7 @@ class Sweep {
             {{"render.integrator", "path"},
              {"image.filter_samples", "splatted"},
              {"render.skin_ball", "off"},
-             {"render.screen_door", "false"},
-             {"render.occlusion_detail", "false"}}};
+             {"render.screen_door", "false"}}};
   }
 
   /// Each variant has another seed, so that no two pictures share noise.

@@ -22,12 +22,8 @@ Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
 }  // namespace
 
 CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-                       const Simplification& simplification, std::shared_ptr<const CoatDirection> direction,
-                       std::shared_ptr<const EvenPriorities> priorities)
-    : groom_(std::move(groom)),
-      simplification_(simplification),
-      direction_(std::move(direction)),
-      priorities_(std::move(priorities)) {
+                       const Simplification& simplification, std::shared_ptr<const CoatDirection> direction)
+    : groom_(std::move(groom)), simplification_(simplification), direction_(std::move(direction)) {
   const Box3f roots = root_box(*groom_, skin);
   if (roots.isEmpty()) return;
   const V3f eye = simplification_.view().open.position;
@@ -36,38 +32,14 @@ CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterS
   const float nearest = beyond.length();
   const float farthest = (eye - roots.center()).length() + half.length();
   const float share = simplification_.max_share(nearest);
-  max_share_ = share;
   first_out_ = share >= 1 ? 1.0f : share + Simplification::fade_half_width(share);
   min_width_factor_ = simplification_.width_factor(share, 0);
   max_width_factor_ = simplification_.max_width_factor(farthest);
-  if (first_out_ < 1 && priorities_) count_kept();
-}
-
-void CoatDetail::count_kept() {
-  for (const FollicleTree::Leaf& leaf : groom_->follicles().leaves()) {
-    uint32_t& kept = max_kept_.emplace_back(0);
-    for (uint32_t f = leaf.begin; f < leaf.end; ++f) kept += priority(f) < first_out_;
-  }
-}
-
-StrandCounts CoatDetail::counts(size_t leaf) const {
-  StrandCounts all = groom_->counts(leaf, candidates(leaf));
-  if (max_kept_.empty() || max_kept_[leaf] >= all.strands) return all;
-  // Each kept strand may be one of the longest.
-  const size_t kept = max_kept_[leaf], points = std::min(all.points, kept * all.longest);
-  const double share = static_cast<double>(points) / static_cast<double>(all.points);
-  const size_t constants = groom_->counts(leaf, 1).attribute_floats;
-  const auto floats = static_cast<size_t>(std::ceil(share * static_cast<double>(all.attribute_floats)));
-  all.strands = kept;
-  all.points = points;
-  all.segments = std::min(all.segments, points);
-  all.attribute_floats = std::min(all.attribute_floats, floats + constants);
-  return all;
 }
 
 size_t CoatDetail::candidates(size_t leaf) const {
   const FollicleTree::Leaf& range = groom_->follicles().leaves()[leaf];
-  if (first_out_ >= 1 || priorities_ || !groom_->has_priority_order()) return range.end - range.begin;
+  if (first_out_ >= 1 || !groom_->has_priority_order()) return range.end - range.begin;
   uint32_t low = range.begin, high = range.end;
   while (low < high) {
     const uint32_t middle = low + (high - low) / 2;
@@ -96,7 +68,7 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
   Choice choice;
   const size_t count = candidates(leaf);
   for (uint32_t s = 0; s < count; ++s) {
-    const float priority = this->priority(begin + s);
+    const float priority = groom_->priority(begin + s);
     if (priority >= first_out_) continue;
     const RootPlace place = this->place(begin + s, pose);
     const float share = simplification_.share(place);

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "geom/root_detail.h"
-#include "geom/strand_counts.h"
 #include "geom/strand_scale.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
 #include "procedurals/detail/coat_direction.h"
-#include "procedurals/detail/even_priorities.h"
 #include "procedurals/skin/posed_character_skin.h"
 
 namespace pelage {
@@ -23,10 +21,9 @@ namespace pelage {
 class CoatDetail {
  public:
   /// `direction`: mean directions of the strands, to separate blur along strands from blur across them; null:
-  /// unknown. `priorities`: null: those of the groom.
+  /// unknown.
   CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-             const Simplification& simplification, std::shared_ptr<const CoatDirection> direction,
-             std::shared_ptr<const EvenPriorities> priorities = {});
+             const Simplification& simplification, std::shared_ptr<const CoatDirection> direction);
 
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
@@ -34,9 +31,6 @@ class CoatDetail {
   /// Returns a number n such that only the first n strands of a leaf can be kept. choose() decides which of
   /// them are kept.
   size_t candidates(size_t leaf) const;
-  /// Returns upper bounds of the kept strands of a leaf and of their data, for one motion key. The bounds are
-  /// tighter than those of the candidates if the priorities are not in the order of the strands.
-  StrandCounts counts(size_t leaf) const;
 
   /// The kept strands of a leaf. All lists have one item per kept strand.
   struct Choice {
@@ -53,27 +47,16 @@ class CoatDetail {
   /// Returns the data of a root from which its level of detail follows. `pose`: as in choose().
   RootPlace place(size_t follicle, const SkinPose& pose) const;
 
-  /// Returns an upper bound of the shares of all strands.
-  float max_share() const { return max_share_; }
   /// Returns an upper bound of the width factors of all strands.
   float max_width_factor() const { return max_width_factor_; }
   /// Returns a lower bound of the width factors of all strands that do not fade.
   float min_width_factor() const { return min_width_factor_; }
 
  private:
-  float priority(size_t follicle) const {
-    return priorities_ ? (*priorities_)[follicle] : groom_->priority(follicle);
-  }
-
-  void count_kept();
-
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
-  std::shared_ptr<const EvenPriorities> priorities_;
-  float first_out_ = 1;             // strands with this priority or a larger one are omitted
-  std::vector<uint32_t> max_kept_;  // by leaf: number of strands below first_out_; empty: all candidates are
-  float max_share_ = 1;
+  float first_out_ = 1;  // strands with this priority or a larger one are omitted
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "procedurals/skin/rest_pose.h"
+#include "geom/closest_point.h"
+#include "geom/tessellation.h"
 
 namespace pelage {
 namespace {
@@ -19,7 +20,16 @@ struct Place {
 
 void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t count, const Workers& workers,
                        const std::function<void(const Strands&, size_t strand)>& visit) {
-  const RestPose pose(groom, rest, workers);
+  PosedSkin pose;
+  if (rest) pose.keys = {rest, 1};
+  SkinMesh mesh;
+  std::vector<ClosestPointTree> trees;
+  if (groom.needs_closest_point()) {
+    const View view;  // so distant that no face is large
+    mesh = tessellate(pose.keys, view, {}, workers);
+    trees.emplace_back(mesh, 0);
+    pose.trees = trees;
+  }
   const FollicleTree& follicles = groom.follicles();
   std::vector<Strands> batches;
   std::vector<Place> places;
@@ -31,7 +41,7 @@ void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t co
     if (sample.empty()) continue;
     const std::vector<float> width(sample.size(), 1.0f);
     const KeptStrands kept{sample, width, {}};
-    batches.push_back(groom.grow(leaf, pose.skin(), &kept));
+    batches.push_back(groom.grow(leaf, pose, &kept));
     for (size_t s = 0; s < sample.size(); ++s)
       places.push_back({batches.back().id(s), batches.size() - 1, s});
   }

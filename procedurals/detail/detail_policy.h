@@ -3,12 +3,10 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "base/job.h"
 #include "lod/simplification.h"
 #include "procedurals/detail/coat_direction.h"
-#include "procedurals/detail/even_priorities.h"
 #include "procedurals/skin/posed_character_skin.h"
 
 namespace pelage {
@@ -27,40 +25,17 @@ class DetailPolicy {
   /// save nothing.
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
-  /// A coat as secondary rays see it from afar.
-  struct Distant {
-    Simplification lod;
-    float from;  ///< distance from the origin of the ray, in scene units: near_distance()
-    /// Null: those of the groom. Other rays see the strands that the random numbers of the groom select, with
-    /// or without an approximation for secondary rays.
-    std::shared_ptr<const EvenPriorities> priorities;
-  };
-  /// Returns how secondary rays see a coat from afar. `reduced`: whether simplification() applies to the coat
-  /// for other rays. Empty if such rays see the same strands as other rays: for whiskers, and where the
-  /// distance between strands is unknown.
-  std::optional<Distant> distant(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin,
-                                 bool reduced);
-
   /// Returns the mean directions of the groom's strands, which motion blur needs. Returns null when they are
   /// not needed: without motion blur, without a skin, and for whiskers.
   std::shared_ptr<const CoatDirection> direction(const Groom& groom,
                                                  const std::shared_ptr<const LimitSurface>& rest);
 
  private:
-  CoatStats stats(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
-  std::shared_ptr<const EvenPriorities> priorities(const Groom& groom);
-  const std::optional<WidthFit>& width_fit(const Groom& groom, const LimitSurface* rest,
-                                           const EvenPriorities* priorities, float between);
-  float spacing(const Groom& groom, const CoatStats& stats, const PosedCharacterSkin& skin);
-
   const SimplificationParams params_;
   const LodView view_;
   const bool blurs_;
   const Job& job_;
   std::map<const Groom*, CoatStats> stats_;
-  std::map<const Groom*, std::optional<WidthFit>> fits_;
-  std::map<const Groom*, float> spacings_;  // of strands without a skin
-  std::map<const Groom*, std::shared_ptr<const EvenPriorities>> priorities_;
   std::map<const Groom*, std::shared_ptr<const CoatDirection>> directions_;
 };
 

@@ -34,7 +34,6 @@ struct alignas(64) ChunkAccel::Scratch {
   }
   void next_ray() {
     waiting.clear();
-    later.clear();
     if (++ray != 0) return;
     std::fill(seen.begin(), seen.end(), 0u);
     ray = 1;
@@ -43,7 +42,6 @@ struct alignas(64) ChunkAccel::Scratch {
   uint32_t ray = 0;            // number of the current ray
   std::vector<uint32_t> seen;  // by chunk: the last ray that visited it
   std::vector<Waiting> waiting;
-  std::vector<Waiting> later;  // resident chunks that are visited after the others
 };
 
 ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
@@ -58,8 +56,8 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
 
 ChunkAccel::~ChunkAccel() = default;
 
-/// The visits of one ray: calls visit(chunk, part of the ray) for every chunk that the ray may hit before
-/// far(), which may decrease between visits; ends when a visit returns false.
+/// The visits of one ray: calls visit(chunk) for every chunk that the ray may hit before far(), which
+/// may decrease between visits; ends when a visit returns false.
 template <class Far, class Visit>
 class ChunkAccel::Visits {
  public:
@@ -68,8 +66,6 @@ class ChunkAccel::Visits {
       : chunks_(chunks),
         boxes_(chunks.boxes()),
         scratch_(scratch),
-        ray_(ray),
-        sight_(chunks.ranges(), ray),
         any_(order == ChunkWalk::Order::kLongestFirst),
         walk_(*boxes_.tree(), ray, order),
         counts_(thread.counts),
@@ -78,8 +74,7 @@ class ChunkAccel::Visits {
 
   void run() {
     scratch_.next_ray();
-    if (visit_first() && visit_later()) visit_waiting();
-    if (sight_.is_limited() && ray_.secondary) ++(met_distant_ ? counts_.rays_far : counts_.rays_near);
+    if (visit_resident()) visit_waiting();
   }
 
  private:
@@ -87,39 +82,31 @@ class ChunkAccel::Visits {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   /// Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
-  /// that looks for any blocker, `met` becomes the number of fine boxes that it intersects.
-  float enter(uint32_t chunk, const SightRange& seen, float entry, bool resident, uint32_t& met) {
-    entry = std::max(entry, seen.from);
+  /// that looks for any blocker, `hit_geometry` becomes the number of fine boxes that it intersects.
+  float enter(uint32_t chunk, float entry, bool resident, uint32_t& cells_hit) {
     if (resident && boxes_.in_fur_tree(chunk)) return entry;
-    const RaySlabs slabs = walk_.slabs().from(seen.from);
-    const float until = std::min(far_(), seen.to);
+    const float until = far_();
     const PartBoxes* learned = boxes_.learned(chunk);
     if (learned && (!resident || learned->count() >= kFiner * boxes_.parts_in_tree(chunk))) {
       counts_.box_tests += static_cast<int64_t>(learned->count());
-      entry = learned->enter(slabs, until);
+      entry = learned->enter(walk_.slabs(), until);
     }
     if (resident || !boxes_.has_fine(chunk) || entry == kInfinity) return entry;
-    const SegmentCellHits hits = intersect_segment_cell_bounds(boxes_.fine(chunk), slabs, until, any_,
+    const SegmentCellHits hits = intersect_segment_cell_bounds(boxes_.fine(chunk), walk_.slabs(), until, any_,
                                                                counts_.box_tests, boxes_.margin(chunk));
-    met = hits.boxes;
+    cells_hit = hits.boxes;
     return hits.entry;
   }
-  bool reaches(const SightRange& seen, float entry) const {
-    // The far end of a ray may be infinite too.
-    return entry <= std::min(far_(), seen.to) && entry < kInfinity;
+  bool reaches(float entry) const {
+    return entry <= far_() && entry < kInfinity;  // the far end of a ray may be infinite too
   }
-  bool visit_one(uint32_t chunk, const SightRange& seen) {
+  bool visit_one(uint32_t chunk) {
     ++counts_.chunk_visits;
-    if (!sight_.is_limited()) return visit_(chunk, ray_);
-    met_distant_ |= chunks_.range(chunk).is_distant();
-    return visit_(chunk, sight_.part(seen));
+    return visit_(chunk);
   }
 
-  /// Whether the ray visits other resident chunks first. The nearest hit is more often in a chunk that the
-  /// ray sees near its origin; any blocker is more often beyond, in a tree that is smaller too.
-  bool comes_later(const SightRange& seen) const { return any_ ? seen.to < kInfinity : seen.is_distant(); }
-  /// Visits resident chunks that do not come later, and finds the others.
-  bool visit_first() {
+  /// Visits resident chunks, and finds the others.
+  bool visit_resident() {
     uint32_t chunk = 0;
     float entry = 0;
     bool goes_on = true;
@@ -133,33 +120,18 @@ class ChunkAccel::Visits {
         }
         continue;
       }
-      const SightRange seen = sight_.of(chunk);
-      if (seen.is_empty()) continue;
       const bool resident = chunks_.is_resident(chunk);
-      uint32_t met = kUnknown;
-      entry = enter(chunk, seen, entry, resident, met);
-      if (!reaches(seen, entry)) continue;
-      if (!resident) {
-        scratch_.waiting.push_back({entry, met, chunk});
-      } else if (comes_later(seen)) {
-        scratch_.later.push_back({entry, met, chunk});
+      uint32_t cells_hit = kUnknown;
+      entry = enter(chunk, entry, resident, hit_geometry);
+      if (!reaches(entry)) continue;
+      if (resident) {
+        goes_on = visit_one(chunk);
       } else {
-        goes_on = visit_one(chunk, seen);
+        scratch_.waiting.push_back({entry, hit_geometry, chunk});
       }
     }
     counts_.box_tests += walk_.box_tests();
     return goes_on;
-  }
-  bool visit_later() {
-    auto& later = scratch_.later;
-    if (!any_) {
-      std::sort(later.begin(), later.end(), [](const Waiting& a, const Waiting& b) {
-        return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
-      });
-    }
-    return std::all_of(later.begin(), later.end(), [&](const Waiting& next) {
-      return next.entry > far_() || visit_one(next.chunk, sight_.of(next.chunk));
-    });
   }
   /// Visits chunks that were not resident.
   void visit_waiting() {
@@ -172,27 +144,22 @@ class ChunkAccel::Visits {
     const float looked_until = far_();
     for (Waiting& waiting : scratch_.waiting) {
       if (waiting.entry > far_()) continue;
-      const SightRange seen = sight_.of(waiting.chunk);
       // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
       const bool tells_more = far_() < looked_until || boxes_.learned(waiting.chunk);
-      if (tells_more && !reaches(seen, enter(waiting.chunk, seen, waiting.entry, false, waiting.boxes)))
-        continue;
+      if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
       ++counts_.absent_visits;
-      if (!visit_one(waiting.chunk, seen)) return;
+      if (!visit_one(waiting.chunk)) return;
     }
   }
 
   const ResidentChunks& chunks_;
   const ChunkBoxes& boxes_;
   Scratch& scratch_;
-  const Ray& ray_;
-  const Sight sight_;
   const bool any_;
   ChunkWalk walk_;
   TraceCounts& counts_;
   const Far& far_;
   const Visit& visit_;
-  bool met_distant_ = false;
 };
 
 template <class Far, class Visit>
@@ -209,21 +176,15 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   if (!is_finite(ray)) return nearest.hit;
   visit_chunks(
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
-      [&](uint32_t chunk, const Ray& part) {
+      [&](uint32_t chunk) {
         const bool found = chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
-          return geometry.closest(part, rays, nearest, thread.met);
+          return geometry.closest(ray, rays, nearest, thread.hit_geometry);
         });
         if (found) nearest_chunk = chunk;
         return true;
       });
   // Only the final answer counts: other hits on the way depend on the order of visits.
-  if (nearest_chunk) {
-    chunks_.mark_hit(*nearest_chunk);
-    const bool is_distant = nearest.hit.kind == HitKind::kSkin
-                                ? ray.secondary && nearest.hit.distance >= chunks_.farthest_near()
-                                : chunks_.range(*nearest_chunk).is_distant();
-    nearest.hit.start.distant = ray.start.distant || is_distant;
-  }
+  if (nearest_chunk) chunks_.mark_hit(*nearest_chunk);
   return nearest.hit;
 }
 
@@ -234,10 +195,10 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
   bool blocked = false;
   visit_chunks(
       ray, ChunkWalk::Order::kLongestFirst, thread, [&] { return ray.far; },
-      [&](uint32_t chunk, const Ray& part) {
+      [&](uint32_t chunk) {
         const size_t before = crossings.reports();
         blocked = !chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
-          return geometry.collect(part, rays, crossings);
+          return geometry.collect(ray, rays, crossings);
         });
         if (blocked || crossings.reports() != before) chunks_.mark_hit(chunk);
         return !blocked;

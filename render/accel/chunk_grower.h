@@ -10,7 +10,6 @@
 #include "geom/strand_scale.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
-#include "render/accel/sight.h"
 
 namespace pelage {
 
@@ -58,8 +57,6 @@ class ChunkGrower {
   virtual std::string name(uint32_t) const { return {}; }
   /// Returns the scale of the strands of a fur chunk without growing the chunk.
   virtual StrandScale scale(uint32_t chunk) const = 0;
-  /// Returns at which distances secondary rays see a chunk.
-  virtual SightRange range(uint32_t) const { return {}; }
 };
 
 }  // namespace pelage

@@ -41,12 +41,6 @@ class RaySlabs {
   }
 
   float near() const { return near_; }
-  /// Returns the part of the ray beyond a distance.
-  RaySlabs from(float near) const {
-    RaySlabs result = *this;
-    if (near > 0) result.near_ = std::max(near_, near);
-    return result;
-  }
 
   /// Tests four boxes against the ray between its near end and `far`. Returns -1 in the lanes of intersected
   /// boxes and 0 in the other lanes. Stores lower bounds of the entry distances in `enter`, and upper bounds

@@ -29,11 +29,10 @@ ResidentChunks::ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrowe
   // Kept chunks may be evicted, so they do not count where the budget is checked.
   for (KeptChunk& chunk : kept) chunk.charge = {};
   expect_patterns();
-  find_ranges();
   const auto charge = [&](size_t bytes) {
     charges_.emplace_back(job.ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
   };
-  charge(boxes_.bytes_bound() + size() * sizeof(build_pages_[0]) + ranges_.capacity() * sizeof(ranges_[0]));
+  charge(boxes_.bytes_bound() + size() * sizeof(build_pages_[0]));
   // The residency checks the smallest sufficient budget, so everything else is charged first.
   if (!options_.eager) {
     boxes_.build_tree(job.workers);
@@ -69,18 +68,6 @@ void ResidentChunks::expect_patterns() {
     const ChunkCounts counts = grower_.counts(chunk);
     if (counts.strands > 0 && counts.segments % counts.strands == 0)
       patterns_.expect(counts.segments / counts.strands, counts.strands);
-  }
-}
-
-void ResidentChunks::find_ranges() {
-  bool some = false;
-  for (uint32_t chunk = 0; chunk < size(); ++chunk) some |= grower_.range(chunk).is_distant();
-  if (!some) return;
-  ranges_.reserve(size());
-  farthest_near_ = 0;
-  for (uint32_t chunk = 0; chunk < size(); ++chunk) {
-    ranges_.push_back(grower_.range(chunk));
-    farthest_near_ = std::max(farthest_near_, ranges_.back().from);
   }
 }
 

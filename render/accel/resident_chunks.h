@@ -3,10 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,13 +77,6 @@ class ResidentChunks final : private Grower {
   /// Index of the chunk's coat or skin in the frame.
   uint32_t part(uint32_t chunk) const { return grower_.part(chunk); }
   bool opaque() const { return options_.opaque; }
-  /// ChunkGrower::range() of the chunk.
-  SightRange range(uint32_t chunk) const { return ranges_.empty() ? SightRange{} : ranges_[chunk]; }
-  /// The ranges of all chunks; empty if all rays see all chunks everywhere.
-  std::span<const SightRange> ranges() const { return ranges_; }
-  /// The largest distance from which secondary rays see other chunks than camera rays do; infinity if there
-  /// is none.
-  float farthest_near() const { return farthest_near_; }
   /// Boxes of the chunks. ChunkBoxes::whole() is known even for chunks that were never grown; code that sorts
   /// chunks into buckets uses it.
   const ChunkBoxes& boxes() const { return boxes_; }
@@ -123,7 +114,6 @@ class ResidentChunks final : private Grower {
     return options_.file && !options_.eager && options_.file->has(chunk);
   }
   void expect_patterns();
-  void find_ranges();
   void adopt(std::vector<KeptChunk> kept, const MemoryLedger& ledger);
   MemoryCharge tree_charge(MemoryLedger& ledger) const;
   void find_whether_all_fit(const MemoryLedger& ledger);
@@ -136,8 +126,6 @@ class ResidentChunks final : private Grower {
   EmbreeDevice device_;
   SegmentPatterns patterns_;
   ChunkBoxes boxes_;
-  float farthest_near_ = std::numeric_limits<float>::infinity();
-  std::vector<SightRange> ranges_;  // by chunk; empty if secondary rays see all chunks at all distances
   std::vector<std::atomic<uint32_t>> build_pages_;  // peak memory of each chunk's last build; 0: not built
   std::vector<MemoryCharge> charges_;
   MemoryCharge tree_charge_;

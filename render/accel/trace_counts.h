@@ -10,15 +10,11 @@ struct TraceCounts {
   int64_t box_tests = 0;      ///< tests of one ray against one box above the chunks
   int64_t chunk_visits = 0;   ///< visits of one chunk's contents by one ray
   int64_t absent_visits = 0;  ///< visits of chunks that were not resident shortly before the visit
-  int64_t rays_near = 0;  ///< rays that might have met distant strands (SightRange), but did not reach them
-  int64_t rays_far = 0;   ///< rays that visited chunks of distant strands
 
   TraceCounts& operator+=(const TraceCounts& other) {
     box_tests += other.box_tests;
     chunk_visits += other.chunk_visits;
     absent_visits += other.absent_visits;
-    rays_near += other.rays_near;
-    rays_far += other.rays_far;
     return *this;
   }
 };

@@ -46,16 +46,10 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job)
     : scene_(scene), bounds_(scene.render.bounds) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
-    const FurPart& fur = scene.fur[part];
-    const auto add = [&](const std::vector<std::unique_ptr<Procedural>>& procedurals, SightRange range) {
-      for (const auto& procedural : procedurals) {
-        collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
-        scales_.push_back(procedural->scale());
-        ranges_.push_back(range);
-      }
-    };
-    add(fur.procedurals, fur.distant.procedurals.empty() ? SightRange{} : SightRange{0, fur.distant.from});
-    add(fur.distant.procedurals, {fur.distant.from});
+    for (const auto& procedural : scene.fur[part].procedurals) {
+      collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
+      scales_.push_back(procedural->scale());
+    }
   }
   was_grown_ = std::make_unique<std::atomic<bool>[]>(leaves_.size());
   growths_ = std::make_unique<std::atomic<uint32_t>[]>(leaves_.size());
@@ -204,8 +198,7 @@ size_t FrameChunks::bytes() const {
   constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
   size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
-               scales_.capacity() * sizeof(scales_[0]) + ranges_.capacity() * sizeof(ranges_[0]) +
-               pieces_.capacity() * sizeof(pieces_[0]) +
+               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]) +
                leaves_.size() * (sizeof(was_grown_[0]) + sizeof(growths_[0]));
   if (stored_skins_) sum += stored_skins_->bytes();
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;

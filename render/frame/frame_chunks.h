@@ -35,9 +35,6 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
-  SightRange range(uint32_t chunk) const override {
-    return is_skin(chunk) ? SightRange{} : ranges_[coats_[chunk]];
-  }
   /// Returns the name of the chunk's coat or skin, such as "walker.under".
   std::string name(uint32_t chunk) const override;
 
@@ -102,7 +99,6 @@ class FrameChunks final : public ChunkGrower {
   std::vector<const Procedural*> leaves_;
   std::vector<uint32_t> parts_;      // index in RenderScene::fur, by leaf
   std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
-  std::vector<SightRange> ranges_;   // by coat
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;    // of the skins that this object has divided
   std::unique_ptr<const StoredSkins> stored_skins_;  // has all pieces; null: pieces_ has them

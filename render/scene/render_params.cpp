@@ -61,7 +61,7 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
                  "blocked is not traced, and points on lights behind it are not chosen; the picture has "
                  "the same mean. `off`: every shadow ray is traced",
          .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off",
-         .removed = {{"fractional", "it made coats up to 12 % too bright; use exact"}}});
+         .removed = {"fractional", "it made coats up to 12 % too bright; use exact"}});
   s.remove({"learned_visibility",
             "it took longer than it saved; `integrator: gather` learns which light arrives by itself",
             "false"});
@@ -69,10 +69,8 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
         {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
                  "whose width is width times opacity. These rays then end at the first strand, which saves "
                  "time; the mean light stays the same. Camera rays still see semi-transparent strands"});
-  s.key("occlusion_detail", &RenderParams::occlusion_detail,
-        {.help = "From a distance on that depends on the coat, shadow rays and indirect rays see "
-                 "a fraction of the strands, widened to cover about as much (approximate). Camera rays still "
-                 "see all strands"});
+  s.remove(
+      {"occlusion_detail", "it gained too little for its growth and approximation; leave it out", "false"});
 }
 
 }  // namespace
@@ -143,7 +141,7 @@ const Schema<RenderParams>& RenderParams::schema() {
                  "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
                  "only while the shutter is open; `linear`: "
                  "as `exact-shutter`, with boxes that move with the strands",
-         .removed = {{"user", "boxes that it made smaller could lose strands; use conservative or exact"}}});
+         .removed = {"user", "boxes that it made smaller could lose strands; use conservative or exact"}});
     s.remove({"bounds_factor", "it belonged to `bounds: user`, which could lose strands", "1"});
     s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "on"});
     s.remove({"shared_topology", "characters with the same cage always share its refinement", "true"});

@@ -85,8 +85,7 @@ struct RenderParams {
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;
-  bool screen_door = false;       ///< secondary rays see strands that are not opaque as opaque, but narrower
-  bool occlusion_detail = false;  ///< secondary rays see fewer, wider strands from some distance on
+  bool screen_door = false;  ///< secondary rays see strands that are not opaque as opaque, but narrower
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
   LodParams lod;

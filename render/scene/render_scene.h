@@ -18,13 +18,6 @@
 
 namespace pelage {
 
-/// A coat as secondary rays see it from some distance on: fewer and wider strands.
-struct DistantFur {
-  std::vector<std::unique_ptr<Procedural>> procedurals;  ///< empty: such rays see all strands
-  std::optional<Simplification> lod = {};                ///< reduction of detail
-  float from = 0;                                        ///< distance from the origin of a ray
-};
-
 /// Fur of one groom on one character: procedurals that share a fibre material.
 struct FurPart {
   std::string name;  ///< "rat.under"
@@ -37,7 +30,6 @@ struct FurPart {
   std::optional<Simplification> lod = {};  ///< reduction of detail; empty: not reduced
   float scale = 1;                         ///< size of the posed skin relative to `rest`
   std::optional<uint32_t> skin = {};       ///< index in RenderScene::skins of the skin below the strands
-  DistantFur distant = {};
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.

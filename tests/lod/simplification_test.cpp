@@ -364,35 +364,5 @@ TEST(Simplification, TheHashTellsWhatDecides) {
   EXPECT_FALSE(plain == Simplification(params, view_from(V3f(0)), kHair, 1).hash());
 }
 
-TEST(Simplification, DistantKeepsAFractionOfTheSamePrefixAndItsCoverage) {
-  const CoatStats stats{0.01f, 1.0f, 1e-5f, 50};
-  for (const bool size : {false, true}) {
-    SimplificationParams params;
-    params.size = size;
-    const Simplification seen(params, view_from(V3f(0)), stats, 1), distant = seen.distant(0.25f);
-    EXPECT_EQ(distant.fraction(), 0.25f);
-    EXPECT_EQ(seen.fraction(), 1);
-    EXPECT_FALSE(seen.hash() == distant.hash());
-    for (float distance = 2; distance < 2000; distance *= 1.3f) {
-      const float all = share_at(seen, distance), some = share_at(distant, distance);
-      // No widened strand is wider than a quarter of its length.
-      EXPECT_EQ(some, std::max(0.25f * all, std::min(all, 0.04f))) << distance;
-      EXPECT_LE(some, distant.max_share(distance));
-      EXPECT_LE(distant.width_factor(some, 0), distant.max_width_factor(distance));
-      EXPECT_EQ(distant.contrast(some), 1);
-      double of_all = 0, of_some = 0;
-      for (int i = 0; i < 10000; ++i) {
-        const float priority = (static_cast<float>(i) + 0.5f) / 10000;
-        const float wide = seen.width_factor(all, priority), wider = distant.width_factor(some, priority);
-        EXPECT_FALSE(wider > 0 && wide == 0) << "a strand that other rays do not see";
-        of_all += wide;
-        of_some += wider;
-      }
-      // What is left of coverage after strands overlap; area_share is small, so few do.
-      EXPECT_NEAR(of_some / of_all, 1, 0.1) << distance;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace pelage

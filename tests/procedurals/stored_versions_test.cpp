@@ -53,10 +53,11 @@ TEST(StoredVersions, ThinnedCoats) {
   CoatStats stats = coat_stats(*coat.groom, coat.rest.get(), workers);
   stats.width *= coat.skin->scale();
   stats.length *= coat.skin->scale() * coat.skin->length();
-  const Simplification near({}, view, stats, 1);
+  SimplificationParams coarse;
+  coarse.quality = 0.5f;
   StageResult result;
   for (const bool far : {false, true}) {
-    const Simplification lod = far ? near.distant(0.3f) : near;
+    const Simplification lod(far ? coarse : SimplificationParams(), view, stats, 1);
     std::vector<float> points;
     std::vector<uint64_t> ids;
     for (const auto& chunk : FurProcedural(coat.groom, coat.skin, lod).split()) {

@@ -56,25 +56,5 @@ TEST(DetailPolicy, ScalesStrandsWithTheirCharacter) {
   EXPECT_LT(share(1, 300), near);
 }
 
-TEST(DetailPolicy, SecondaryRaysSeeFewerStrandsBeyondTwiceTheirDistances) {
-  const RandomCoat coat(5, {});
-  QuietJob quiet;
-  const Job job = quiet;
-  const LodView view;
-  const auto distant = [&](const RandomCoat& of, bool reduced) {
-    return DetailPolicy({}, view, kClosed, job).distant(*of.groom, of.rest.get(), *of.skin, reduced);
-  };
-  const auto full = distant(coat, false), reduced = distant(coat, true);
-  ASSERT_TRUE(full && reduced);
-  EXPECT_EQ(full->from, reduced->from);
-  // 900 strands on a ball of about radius 2 at rest: 4 sqrt(4 pi 2^2 / 900), times the scale of the pose, if
-  // a quarter is kept.
-  EXPECT_NEAR(full->from * 2 * std::sqrt(full->lod.fraction()), coat.skin->scale() * 0.95f,
-              coat.skin->scale() * 0.35f);
-  const RootPlace root{V3f(0, 0, -100), V3f(0, 0, -100)};
-  EXPECT_EQ(full->lod.share(root), full->lod.fraction()) << "without regard to the camera";
-  EXPECT_LE(reduced->lod.share(root), full->lod.share(root));
-}
-
 }  // namespace
 }  // namespace pelage
