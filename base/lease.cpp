@@ -27,7 +27,7 @@ std::string random_name() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-bool still_named(int descriptor, const std::filesystem::path& path) {
+bool names_open_file(int descriptor, const std::filesystem::path& path) {
   struct stat held {
   }, named{};
   return ::fstat(descriptor, &held) == 0 && ::lstat(path.c_str(), &named) == 0 &&
@@ -40,14 +40,14 @@ std::string content_of(int descriptor) {
   return size > 0 ? std::string(buffer.data(), static_cast<size_t>(size)) : std::string();
 }
 
-class Descriptor {
+class OwnedDescriptor {
  public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
+  explicit OwnedDescriptor(int number) : number_(number) {}
+  ~OwnedDescriptor() {
     if (number_ >= 0) ::close(number_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  OwnedDescriptor(const OwnedDescriptor&) = delete;
+  OwnedDescriptor& operator=(const OwnedDescriptor&) = delete;
   int number() const { return number_; }
   int release() { return std::exchange(number_, -1); }
 
@@ -70,12 +70,12 @@ int open_again(const std::filesystem::path& path) {
 }
 
 std::string content_of(const std::filesystem::path& path) {
-  const Descriptor file(open_again(path));
+  const OwnedDescriptor file(open_again(path));
   return file.number() < 0 ? std::string() : content_of(file.number());
 }
 
 /// Whether the last call failed because the file is no longer there.
-bool is_gone() { return errno == ENOENT || errno == ESTALE; }
+bool file_is_gone() { return errno == ENOENT || errno == ESTALE; }
 
 /// Removes the lease if it still has the content that was seen, and not that of a new holder. Returns false
 /// if the folder does not let this process remove it.
@@ -83,7 +83,7 @@ bool remove_expired(const std::filesystem::path& path, const std::string& conten
   if (content_of(path) != content) return true;
   const std::filesystem::path aside =
       path.parent_path() / (path.stem().string() + "." + random_name() + path.extension().string());
-  if (::rename(path.c_str(), aside.c_str()) != 0) return is_gone();
+  if (::rename(path.c_str(), aside.c_str()) != 0) return file_is_gone();
   // A new holder may have come between: its lease is put back.
   if (content_of(aside) != content) (void)!::link(aside.c_str(), path.c_str());
   ::unlink(aside.c_str());
@@ -93,15 +93,15 @@ bool remove_expired(const std::filesystem::path& path, const std::string& conten
 /// Looks at a lease that another holder has, and removes it if that holder is gone. Returns false if this
 /// process may not: waiting would then have no end.
 bool look(const std::filesystem::path& path, const LeaseTiming& timing, Seen& seen) {
-  const Descriptor file(open_again(path));
+  const OwnedDescriptor file(open_again(path));
   struct stat info {};
-  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return is_gone();
+  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return file_is_gone();
   std::string content = content_of(file.number());
   const bool is_of_this_machine = content.starts_with(machine_name() + " ");
   // The holder locks the file before it writes its name.
   if (is_of_this_machine && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) {
-    if (!still_named(file.number(), path)) return true;
-    return ::unlink(path.c_str()) == 0 || is_gone();
+    if (!names_open_file(file.number(), path)) return true;
+    return ::unlink(path.c_str()) == 0 || file_is_gone();
   }
   const auto now = Clock::now();
   if (seen.file != info.st_ino || seen.content != content) {
@@ -129,7 +129,7 @@ Lease::~Lease() {
   wake_.notify_all();
   thread_.join();
   // While it is still locked. It may have expired, and belong to another holder.
-  if (still_named(descriptor_, path_)) ::unlink(path_.c_str());
+  if (names_open_file(descriptor_, path_)) ::unlink(path_.c_str());
   ::close(descriptor_);
 }
 
@@ -143,7 +143,7 @@ void Lease::renew() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, timing_.renewal, [this] { return ending_; })) {
     lock.unlock();
-    const bool mine = still_named(descriptor_, path_);
+    const bool mine = names_open_file(descriptor_, path_);
     if (mine) write_count();  // after a failure, the lease expires
     lock.lock();
     if (!mine) return;
@@ -156,10 +156,10 @@ std::unique_ptr<Lease> Lease::take(const std::filesystem::path& path, const std:
   const std::string owner = fmt::format("{} {} {}\n", machine_name(), ::getpid(), random_name());
   Seen seen;
   for (auto poll = kPoll;; poll = std::min(2 * poll, kMaxPoll)) {
-    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
+    OwnedDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
     if (file.number() >= 0) {
       ::flock(file.number(), LOCK_EX | LOCK_NB);  // an empty file is not taken for that of a dead process
-      if (still_named(file.number(), path))
+      if (names_open_file(file.number(), path))
         return std::unique_ptr<Lease>(new Lease(path, file.release(), owner, timing));
       continue;
     }

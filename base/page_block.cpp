@@ -11,15 +11,15 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kPage = 4096;
+constexpr size_t kPageBytes = 4096;
 constexpr size_t kOwnPages = 64 * 1024;  // from this size on, a partially used page costs little
 constexpr size_t kAlignment = 64;
-constexpr uintptr_t kLargePage = uintptr_t(2) << 20;
+constexpr uintptr_t kLargePageBytes = uintptr_t(2) << 20;
 
 }  // namespace
 
 size_t PageBlock::held_bytes(size_t bytes) {
-  const size_t grain = bytes >= kOwnPages ? kPage : kAlignment;
+  const size_t grain = bytes >= kOwnPages ? kPageBytes : kAlignment;
   return (bytes + grain - 1) / grain * grain;
 }
 
@@ -40,8 +40,9 @@ PageBlock::PageBlock(size_t bytes) : bytes_(held_bytes(bytes)) {
 void PageBlock::prefer_large_pages() {
 #ifdef MADV_HUGEPAGE
   // Only whole pages within the block: nothing outside may become resident.
-  const auto begin = (reinterpret_cast<uintptr_t>(data_) + kLargePage - 1) / kLargePage * kLargePage;
-  const auto end = (reinterpret_cast<uintptr_t>(data_) + bytes_) / kLargePage * kLargePage;
+  const auto begin =
+      (reinterpret_cast<uintptr_t>(data_) + kLargePageBytes - 1) / kLargePageBytes * kLargePageBytes;
+  const auto end = (reinterpret_cast<uintptr_t>(data_) + bytes_) / kLargePageBytes * kLargePageBytes;
   if (bytes_ >= kOwnPages && begin < end)
     ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif

@@ -8,6 +8,27 @@
 #include "base/value_readers.h"
 
 namespace pelage {
+namespace {
+
+/// Adds a problem, unless the key is a removed one with its harmless value.
+void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems) {
+  if (const KeyInfo* renamed = schema.find_renamed(entry.key)) {
+    problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
+    return;
+  }
+  for (const Removed& removed : schema.removed()) {
+    if (removed.name != entry.key) continue;
+    const bool harmless = entry.value.is_scalar() && entry.value.text() == removed.harmless;
+    if (!harmless || removed.harmless.empty())
+      problems.add(entry.key_position, quote(entry.key) + " was removed: " + std::string(removed.advice));
+    return;
+  }
+  const std::vector<std::string> names = schema.key_names();
+  problems.add(entry.key_position,
+               "unknown key " + quote(entry.key) + " in " + schema.name() + suggest(entry.key, names));
+}
+
+}  // namespace
 
 std::string range_text(const KeyOptions& options) {
   const bool has_min = std::isfinite(options.min);
@@ -28,6 +49,7 @@ std::vector<std::string> SchemaInfo::key_names() const {
 }
 
 bool KeyInfo::has_old_name(std::string_view old_name) const {
+  if (old_name.empty()) return false;
   return std::find(options.old_names.begin(), options.old_names.end(), old_name) != options.old_names.end();
 }
 
@@ -42,35 +64,48 @@ const KeyInfo* SchemaInfo::find_renamed(std::string_view old_name) const {
   return key == keys_.end() ? nullptr : &*key;
 }
 
-namespace detail {
+void SchemaInfo::add_key(std::string_view name, const detail::ValueType& type, size_t offset,
+                         const void* default_value, const KeyOptions& options) {
+  std::string shown(options.default_text);
+  if (shown.empty() && !options.required) shown = type.print(default_value);
+  keys_.push_back(
+      {std::string(name), type.type_name(), std::move(shown), options, type.blocks(), type.visit_blocks});
+  members_.push_back({&type, offset});
+}
 
-void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems) {
-  if (const KeyInfo* renamed = schema.find_renamed(entry.key)) {
-    problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
-    return;
+std::vector<ParameterText> SchemaInfo::describe_members(const void* params, const std::string& prefix) const {
+  std::vector<ParameterText> out;
+  for (size_t i = 0; i < keys_.size(); ++i)
+    members_[i].type->describe(static_cast<const char*>(params) + members_[i].offset, prefix + keys_[i].name,
+                               out);
+  return out;
+}
+
+bool SchemaInfo::read_members(const Value& value, void* params, Problems& problems,
+                              std::string_view skip) const {
+  if (!value.is_map()) {
+    problems.add(value.position(), "expected a block of keys (" + name_ + "), got " + value.describe());
+    return false;
   }
-  for (const Removed& removed : schema.removed()) {
-    if (removed.name != entry.key) continue;
-    const bool harmless = entry.value.is_scalar() && entry.value.text() == removed.harmless;
-    if (!harmless || removed.harmless.empty())
-      problems.add(entry.key_position, quote(entry.key) + " was removed: " + removed.advice);
-    return;
+  const size_t before = problems.list().size();
+  std::vector<bool> seen(keys_.size(), false);
+  for (const Value::Entry& entry : value.entries()) {
+    if (!skip.empty() && entry.key == skip) continue;
+    const KeyInfo* key = find(entry.key);
+    if (!key) {
+      report_unknown_key(entry, *this, problems);
+      continue;
+    }
+    const size_t i = key - keys_.data();
+    seen[i] = true;
+    members_[i].type->read(entry.value, key->options, static_cast<char*>(params) + members_[i].offset,
+                           problems);
   }
-  const std::vector<std::string> names = schema.key_names();
-  problems.add(entry.key_position,
-               "unknown key " + quote(entry.key) + " in " + schema.name() + suggest(entry.key, names));
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    if (keys_[i].options.required && !seen[i])
+      problems.add(value.position(), name_ + " needs the key '" + keys_[i].name + "'");
+  }
+  return problems.list().size() == before;
 }
 
-void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key,
-                        Problems& problems) {
-  problems.add(block.position(), schema.name() + " needs the key '" + key + "'");
-}
-
-bool expect_map(const Value& value, const SchemaInfo& schema, Problems& problems) {
-  if (value.is_map()) return true;
-  problems.add(value.position(), "expected a block of keys (" + schema.name() + "), got " + value.describe());
-  return false;
-}
-
-}  // namespace detail
 }  // namespace pelage

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -38,26 +40,25 @@ namespace pelage {
 // of its type. base/value_readers.h has ValueReaders for numbers, strings, vectors, paths, enumerations,
 // lists and maps; other folders add more.
 
-/// A key or a value of a key that an earlier release had.
+/// A key or a value of a key that an earlier release had. Texts are literals.
 struct Removed {
-  std::string name;    ///< of the key, or the value
-  std::string advice;  ///< the end of "was removed: ..."
+  std::string_view name;    ///< of the key, or the value
+  std::string_view advice;  ///< the end of "was removed: ..."
   /// Value of a removed key that scenes may still set, because Pelage always does what it meant; "": none.
-  std::string harmless = {};
+  std::string_view harmless = {};
 };
 
-/// Constraints on a key's value, and its description in the manual.
+/// Constraints on a key's value, and its description in the manual. Texts are literals.
 struct KeyOptions {
-  std::string unit = {};
-  std::string help = {};
+  std::string_view unit = {};
+  std::string_view help = {};
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< whether values must be greater than min, not equal to it
-  std::string default_text =
-      {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
-  std::vector<std::string> old_names = {};  ///< names of this key in earlier releases
-  std::vector<Removed> removed = {};        ///< values of an enumeration in earlier releases
+  bool above_min = false;              ///< whether values must be greater than min, not equal to it
+  std::string_view default_text = {};  ///< shown instead of the printed default, e.g. "see render"
+  std::array<std::string_view, 2> old_names = {};  ///< names of this key in earlier releases, or ""
+  Removed removed = {};                            ///< value of an enumeration in earlier releases
 };
 
 class SchemaInfo;
@@ -73,7 +74,7 @@ struct KeyInfo {
   KeyOptions options;
   std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that a value of this key may contain
   /// Calls the visitor for each block directly under a value of this key; for none if the value is malformed.
-  std::function<void(Value&, const BlockVisitor&)> visit_blocks;
+  void (*visit_blocks)(Value&, const BlockVisitor&);
 
   bool has_old_name(std::string_view old_name) const;
 };
@@ -96,6 +97,10 @@ struct ParameterText {
 /// Returns the range of allowed values: "0 .. 1", "> 0", or "" when there are no limits.
 std::string range_text(const KeyOptions& options);
 
+namespace detail {
+struct ValueType;
+}
+
 /// A table of keys without the types of the struct's members. This is all that the manual needs.
 class SchemaInfo {
  public:
@@ -109,7 +114,7 @@ class SchemaInfo {
   /// Returns the key of which `old_name` is a former name, or nullptr.
   const KeyInfo* find_renamed(std::string_view old_name) const;
   /// Adds a key that this table no longer has. A scene that sets it is told so.
-  void remove(Removed key) { removed_.push_back(std::move(key)); }
+  void remove(const Removed& key) { removed_.push_back(key); }
   const std::vector<Removed>& removed() const { return removed_; }
 
   /// Excerpt of a scene file that uses this block, with all enclosing keys. The manual prints it; a test
@@ -121,11 +126,23 @@ class SchemaInfo {
   void set_picture(std::string caption) { picture_ = std::move(caption); }
 
  protected:
+  /// Adds a key whose values are `offset` bytes behind the start of the params struct.
+  void add_key(std::string_view name, const detail::ValueType& type, size_t offset, const void* default_value,
+               const KeyOptions& options);
+  std::vector<ParameterText> describe_members(const void* params, const std::string& prefix) const;
+  bool read_members(const Value& value, void* params, Problems& problems, std::string_view skip) const;
+
+ private:
+  struct Member {
+    const detail::ValueType* type;
+    size_t offset;
+  };
   std::string name_;
   std::string help_;
   std::string example_;
   std::string picture_;
   std::vector<KeyInfo> keys_;
+  std::vector<Member> members_;  ///< one per key
   std::vector<Removed> removed_;
 };
 
@@ -178,11 +195,29 @@ void describe_value(const T& value, const std::string& key, std::vector<Paramete
     out.push_back(std::move(one));
   }
 }
-/// Adds a problem, unless the key is a removed one with its harmless value.
-void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems);
-void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key,
-                        Problems& problems);
-bool expect_map(const Value& value, const SchemaInfo& schema, Problems& problems);
+
+/// The functions of ValueReader<T> for a T behind a pointer. A table reads all members through these, so that
+/// each type is compiled once, not once per key.
+struct ValueType {
+  bool (*read)(const Value&, const KeyOptions&, void* out, Problems&);
+  std::string (*type_name)();
+  std::string (*print)(const void*);
+  void (*describe)(const void*, const std::string& key, std::vector<ParameterText>& out);
+  std::vector<const SchemaInfo*> (*blocks)();
+  void (*visit_blocks)(Value&, const BlockVisitor&);
+};
+template <class T>
+inline constexpr ValueType kValueType{
+    [](const Value& value, const KeyOptions& options, void* out, Problems& problems) {
+      return ValueReader<T>::read(value, options, *static_cast<T*>(out), problems);
+    },
+    [] { return ValueReader<T>::type_name(); },
+    [](const void* value) { return ValueReader<T>::print(*static_cast<const T*>(value)); },
+    [](const void* value, const std::string& key, std::vector<ParameterText>& out) {
+      describe_value(*static_cast<const T*>(value), key, out);
+    },
+    blocks_of<T>,
+    visit_blocks<T>};
 }  // namespace detail
 
 /// The table of keys of a params struct P.
@@ -193,57 +228,31 @@ class Schema : public SchemaInfo {
 
   /// Adds the key `name`, which sets `member`. Returns this table.
   template <class T>
-  Schema& key(std::string name, T P::*member, KeyOptions options) {
-    std::string shown = options.default_text;
-    if (shown.empty() && !options.required) shown = ValueReader<T>::print(P{}.*member);
-    keys_.push_back({name, ValueReader<T>::type_name(), std::move(shown), options, detail::blocks_of<T>(),
-                     detail::visit_blocks<T>});
-    readers_.push_back([member, options](const Value& value, P& out, Problems& problems) {
-      return ValueReader<T>::read(value, options, out.*member, problems);
-    });
-    describers_.push_back(
-        [member, name](const P& params, const std::string& prefix, std::vector<ParameterText>& out) {
-          detail::describe_value(params.*member, prefix + name, out);
-        });
+  Schema& key(std::string_view name, T P::*member, const KeyOptions& options) {
+    const P& defaults = default_params();
+    const T* value = &(defaults.*member);
+    add_key(name, detail::kValueType<T>,
+            reinterpret_cast<const char*>(value) - reinterpret_cast<const char*>(&defaults), value, options);
     return *this;
   }
 
   /// Returns all parameters as text, in the order of the table. Different structs have different texts.
   std::vector<ParameterText> describe(const P& params, const std::string& prefix = {}) const {
-    std::vector<ParameterText> out;
-    for (const auto& describer : describers_) describer(params, prefix, out);
-    return out;
+    return describe_members(&params, prefix);
   }
 
   /// Fills `out` from a map. Adds a problem for every unknown key, every missing required key and every
   /// malformed value. Ignores the key `skip`, which another table reads, such as the `type` of a light.
   /// Returns whether it added no problem.
   bool read(const Value& value, P& out, Problems& problems, std::string_view skip = {}) const {
-    if (!detail::expect_map(value, *this, problems)) return false;
-    const size_t before = problems.list().size();
-    std::vector<bool> seen(keys_.size(), false);
-    for (const Value::Entry& entry : value.entries()) {
-      if (!skip.empty() && entry.key == skip) continue;
-      size_t i = 0;
-      while (i < keys_.size() && keys_[i].name != entry.key) ++i;
-      if (i == keys_.size()) {
-        detail::report_unknown_key(entry, *this, problems);
-        continue;
-      }
-      seen[i] = true;
-      readers_[i](entry.value, out, problems);
-    }
-    for (size_t i = 0; i < keys_.size(); ++i) {
-      if (keys_[i].options.required && !seen[i]) {
-        detail::report_missing_key(value, *this, keys_[i].name, problems);
-      }
-    }
-    return problems.list().size() == before;
+    return read_members(value, &out, problems, skip);
   }
 
  private:
-  std::vector<std::function<bool(const Value&, P&, Problems&)>> readers_;
-  std::vector<std::function<void(const P&, const std::string&, std::vector<ParameterText>&)>> describers_;
+  static const P& default_params() {
+    static const P params = P();
+    return params;
+  }
 };
 
 /// Reads a struct P that has a table of keys (P::schema()). With this reader, a key's value can be a block.

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include "base/check.h"
@@ -13,8 +12,6 @@
 namespace pelage {
 namespace {
 
-constexpr uint64_t kSystemPage = 4096;
-
 [[noreturn]] void fail(const std::filesystem::path& path, const char* why) {
   throw Error(ErrorKind::kInput, {path.string(), 0, 0}, std::string("cannot read: ") + why);
 }
@@ -22,15 +19,8 @@ constexpr uint64_t kSystemPage = 4096;
 }  // namespace
 
 StoredSections::StoredSections(OpenFile file) : file_(std::move(file)) {
-  // Read-ahead would load neighbouring sections that are not needed.
-  ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_RANDOM);
   layout_ = StoredFileLayout::read(path(), file_bytes(),
                                    [&](uint64_t offset, std::span<std::byte> out) { read_at(offset, out); });
-}
-
-void StoredSections::keep_cached() {
-  is_cached_ = true;
-  ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_NORMAL);
 }
 
 void StoredSections::read_at(uint64_t offset, std::span<std::byte> out) const {
@@ -48,19 +38,8 @@ void StoredSections::read(size_t i, std::span<std::byte> out) const {
   const stored_file_format::Section& section = layout_.sections[i];
   PELAGE_CHECK(out.size() == section.bytes);
   read_at(section.offset, out);
-  if (!is_cached_) {
-    const uint64_t begin = section.offset / kSystemPage * kSystemPage;
-    ::posix_fadvise(file_.descriptor(), static_cast<off_t>(begin),
-                    static_cast<off_t>(section.offset + section.bytes - begin), POSIX_FADV_DONTNEED);
-  }
   if (content_hash(out) != ContentHash{section.hash_low, section.hash_high})
     refuse_stored_file(path(), "its content does not match its checksum");
-}
-
-void StoredSections::prefetch(size_t i) const {
-  const stored_file_format::Section& section = layout_.sections[i];
-  ::posix_fadvise(file_.descriptor(), static_cast<off_t>(section.offset), static_cast<off_t>(section.bytes),
-                  POSIX_FADV_WILLNEED);
 }
 
 }  // namespace pelage

@@ -13,8 +13,8 @@
 namespace pelage {
 
 /// A file of a content store that may be larger than memory. read() copies one section to memory of the
-/// caller and verifies it, each time. The file is not mapped. Unless keep_cached() was called, the system is
-/// asked not to cache the sections that were read, so that only the memory of the caller stays resident.
+/// caller and verifies it, each time. The file is not mapped. The system may cache what was read and its
+/// neighbours; it frees this cache when it needs memory.
 ///
 /// Thread safety: const members may be called from any thread.
 class StoredSections {
@@ -32,23 +32,15 @@ class StoredSections {
   /// Heap memory of this object.
   size_t bytes() const { return layout_.sections.capacity() * sizeof(layout_.sections[0]); }
 
-  /// From now on, the system may cache the sections that were read and their neighbours. It frees this cache
-  /// when it needs memory. For files that several processes read. Call before other threads use the object.
-  void keep_cached();
-
   /// Reads section `i` into `out`, which must have section_bytes(i) bytes. Throws Error (kInput) when the
   /// section cannot be read or its checksum is wrong.
   void read(size_t i, std::span<std::byte> out) const;
-  /// Tells the system that section `i` will be read soon. The system may then load the section in advance and
-  /// cache it until read().
-  void prefetch(size_t i) const;
 
  private:
   void read_at(uint64_t offset, std::span<std::byte> out) const;
 
   OpenFile file_;
   StoredFileLayout layout_;
-  bool is_cached_ = false;
 };
 
 }  // namespace pelage

@@ -278,9 +278,9 @@ bool read_enum(const Value& value, std::span<const char* const> names, const Key
       out = static_cast<int>(i);
       return true;
     }
-    for (const Removed& removed : options.removed) {
-      if (value.text() != removed.name) continue;
-      problems.add(value.position(), quote(removed.name) + " was removed: " + removed.advice);
+    if (value.text() == options.removed.name && !value.text().empty()) {
+      problems.add(value.position(),
+                   quote(value.text()) + " was removed: " + std::string(options.removed.advice));
       return false;
     }
   }

@@ -12,7 +12,7 @@
 #include "geom/io/strand_file.h"
 #include "tests/geom/random_strands.h"
 
-namespace pelage {
+namespace pelage::geom_strands {
 namespace {
 
 const Strands& fur(int motion_keys = 1) {
@@ -101,6 +101,6 @@ void read_strand_file(benchmark::State& state) {
 BENCHMARK(read_strand_file)->Name("read: .hair (0), .tfx (1)")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::geom_strands
 
 BENCHMARK_MAIN();

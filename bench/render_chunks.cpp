@@ -18,9 +18,9 @@
 #include "bench/yardstick.h"
 #include "procedurals/bounds/segment_parts.h"
 #include "render/accel/chunk_accel.h"
-#include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"
 #include "render/accel/part_bounds.h"
+#include "tests/render/accel/embree_accel.h"
 
 namespace pelage {
 namespace {
@@ -125,7 +125,7 @@ void chunks_over_one_scene(benchmark::State& state) {
   }
   EmbreeOptions compact;
   compact.compact = true;
-  const EmbreeAccel eager(batches, {&std::get<SkinMesh>(chunks.contents().back().geometry)}, compact, ledger,
+  const EmbreeAccel eager(batches, {&std::get<SkinMesh>(chunks.contents().back().geometry)}, compact,
                           workers);
   const BallRays rays = ball_rays(eager, 160);
 

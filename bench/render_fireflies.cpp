@@ -30,7 +30,7 @@
 #include "render/light/light_params.h"
 #include "render/path/path_tracer.h"
 
-namespace pelage {
+namespace pelage::render_fireflies {
 namespace {
 
 constexpr int kSize = 72;
@@ -141,7 +141,7 @@ void fireflies(benchmark::State& state) {
     auto film = std::make_unique<Film>(kSize, kSize, layers, ledger);
     FrameLoop loop(tracer, {workers, ledger, progress}, *film, frame_window(kSize, kSize, {}, layers.splat),
                    clock);
-    loop.pass([samples](size_t, uint32_t) { return samples; }, false);
+    loop.pass({[samples](size_t) { return samples; }});
     return film;
   };
   for (auto _ : state) {
@@ -207,4 +207,4 @@ void weights(benchmark::State& state) {
 BENCHMARK(weights)->ArgName("model")->DenseRange(0, 2)->Iterations(1);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_fireflies

@@ -34,7 +34,7 @@
 #include "render/frame/frame_loop.h"
 #include "render/path/path_tracer.h"
 
-namespace pelage {
+namespace pelage::render_furball {
 namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
@@ -76,7 +76,7 @@ void furball(benchmark::State& state) {
     FrameLoop loop(tracer, {workers, ledger, progress}, *film,
                    frame_window(kWidth, kHeight, {}, layers.splat), clock);
     const double start = cpu_seconds();
-    loop.pass([samples](size_t, uint32_t) { return samples; }, false);
+    loop.pass({[samples](size_t) { return samples; }});
     cpu_s = cpu_seconds() - start;
     loop.add_to(statistics);
     return film;
@@ -130,4 +130,4 @@ BENCHMARK(furball)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_furball

@@ -10,13 +10,13 @@
 #include "base/parallel.h"
 #include "base/process_usage.h"
 #include "bench/ball_scene.h"
-#include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
 #include "render/frame/frame_geometry.h"
 #include "render/path/path_tracer.h"
 #include "render/render_frame.h"
+#include "tests/render/accel/embree_scene.h"
 
-namespace pelage {
+namespace pelage::render_path {
 namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
@@ -106,7 +106,7 @@ void path_over_bare_rays(benchmark::State& state) {
   const RenderScene scene =
       ball_scene(ball, ConeShellParams{}, {kWidth, kHeight, 16, static_cast<int>(state.range(1))}, ledger);
   const auto geometry = FrameGeometry::make(scene, {workers, ledger, progress}, statistics);
-  const EmbreeScene bare({{&ball.strands, 0, {}}}, {&ball.skin}, {}, ledger, workers);
+  const EmbreeScene bare({{&ball.strands, 0, {}}}, {&ball.skin}, {}, workers);
 
   const FilmLayers layers = FilmLayers::make({{"key", false}, {"rim", false}, {"sky", true}}, kLobeGroups);
   const Recorder recorder(geometry->accel());
@@ -138,4 +138,4 @@ BENCHMARK(path_over_bare_rays)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_path

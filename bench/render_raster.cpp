@@ -13,7 +13,7 @@
 #include "render/frame/frame_geometry.h"
 #include "render/raster/tile_raster.h"
 
-namespace pelage {
+namespace pelage::render_raster {
 namespace {
 
 constexpr int kWidth = 960, kHeight = 540, kEvery = 8;  // one tile in kEvery
@@ -45,7 +45,7 @@ void rays_over_raster(benchmark::State& state) {
       for (int x = tile.x0; x < tile.x1; ++x, ++pixel) {
         for (uint32_t i = 0; i < count; ++i) {
           SampleStream stream = samples.stream(x, y, i);
-          use(pixel, i, samples.draw(x, y, i, stream).ray);
+          use(pixel, i, samples.sample(x, y, i, stream).ray);
         }
       }
     }
@@ -108,4 +108,4 @@ BENCHMARK(rays_over_raster)
     ->Unit(benchmark::kSecond);
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::render_raster

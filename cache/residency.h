@@ -135,7 +135,6 @@ class Residency {
   /// is cancelled. Throws Error (kMemory) when the budget cannot hold all units.
   void grow_all(const Job& job);
 
-  size_t slot_count() const { return slots_.size(); }
   ResidencyCounts counts() const;
 
  private:

@@ -8,12 +8,12 @@ namespace pelage {
 namespace {
 
 template <class T>
-std::string shown(const T& value) {
+std::string shown_value(const T& value) {
   return ValueReader<T>::print(value);
 }
 
-std::string describe(const SkinParams& skin) {
-  std::string text = fmt::format("{}, {}", skin.mesh.path.string(), shown(skin.scheme));
+std::string describe_item(const SkinParams& skin) {
+  std::string text = fmt::format("{}, {}", skin.mesh.path.string(), shown_value(skin.scheme));
   if (skin.poses) {
     text += fmt::format(", {} poses{}", skin.poses->count, skin.poses->cycle ? " in a cycle" : "");
   }
@@ -26,8 +26,8 @@ std::string strands_of(const GroomParams& groom) {
   return fmt::format("{} with {} points on {}", count, groom.points, groom.skin.name);
 }
 
-std::string describe(const GroomParams& groom) {
-  std::string text = fmt::format("{}, {}", strands_of(groom), shown(groom.role));
+std::string describe_item(const GroomParams& groom) {
+  std::string text = fmt::format("{}, {}", strands_of(groom), shown_value(groom.role));
   for (size_t i = 0; i < groom.operators.items.size(); ++i) {
     text += (i ? ", " : ": ") + groom.operators.items[i].name;
   }
@@ -39,7 +39,7 @@ std::string kind_of(const std::variant<Ps...>& params) {
   return std::visit([](const auto& p) { return std::string(p.kTypeName); }, params);
 }
 
-std::string describe(const CharacterParams& character) {
+std::string describe_item(const CharacterParams& character) {
   std::string text;
   for (const PartParams& part : character.parts) {
     text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", part.skin.name, part.material.name);
@@ -51,19 +51,20 @@ std::string describe(const CharacterParams& character) {
   return text;
 }
 
-std::string describe(const CrowdParams& crowd) {
+std::string describe_item(const CrowdParams& crowd) {
   std::string text;
   for (const NameReference& of : crowd.of) text += (text.empty() ? "" : ", ") + of.name;
   return fmt::format("{} of {}", crowd.count, text);
 }
 
-std::string describe(const LightParams& light) { return kind_of(light); }
-std::string describe(const MaterialParams& material) { return kind_of(material); }
+std::string describe_item(const LightParams& light) { return kind_of(light); }
+std::string describe_item(const MaterialParams& material) { return kind_of(material); }
 
 template <class T>
 std::string section(const char* title, const Named<T>& named) {
   std::string text = fmt::format("{} {}\n", named.items.size(), title);
-  for (const auto& item : named.items) text += fmt::format("  {}: {}\n", item.name, describe(item.value));
+  for (const auto& item : named.items)
+    text += fmt::format("  {}: {}\n", item.name, describe_item(item.value));
   return text;
 }
 
@@ -72,8 +73,8 @@ std::string section(const char* title, const Named<T>& named) {
 std::string describe_scene(const SceneDescription& scene) {
   std::string text =
       fmt::format("scene, {} x {} pixels, frames {}, {}, {}, integrator {}\n", scene.image.width,
-                  scene.image.height, shown(scene.frames), counted(scene.render.samples, "sample"),
-                  counted(scene.render.bounces, "bounce"), shown(scene.render.integrator));
+                  scene.image.height, shown_value(scene.frames), counted(scene.render.samples, "sample"),
+                  counted(scene.render.bounces, "bounce"), shown_value(scene.render.integrator));
   text +=
       section("skins", scene.skins) + section("grooms", scene.grooms) + section("materials", scene.materials);
   text += section("characters", scene.characters);

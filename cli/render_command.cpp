@@ -106,7 +106,7 @@ std::vector<int> missing_frames(const Options& options, const FrameList& list, c
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path,
                 FrameOptions how, Checkpoint* checkpoint, Run& run) {
   const double began = run.seconds();
-  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
+  const World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
   run.statistics().world += world.counts;
   const double posed = run.seconds();
   if (checkpoint) checkpoint->begin(world.poses);

@@ -31,7 +31,7 @@ int run_why(const Options& options) {
   check_pixel(scene.image, options.pixel_x, options.pixel_y);
   check_output(options.output, scene);
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-  World world =
+  const World world =
       run.stage("pose", [&] { return compose(scene, *assets, scene.frames.frames.front(), run.job()); });
   KeptFur fur;  // so that no leaf is grown only to measure its boxes
   std::unique_ptr<FrameGeometry> geometry;

@@ -6,7 +6,7 @@ namespace pelage {
 namespace {
 
 template <class T>
-size_t heap_bytes(const std::vector<T>& values) {
+size_t vector_bytes(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
 }
 
@@ -27,9 +27,9 @@ int distinct_corners(std::span<const uint32_t> face) {
 }
 
 size_t ControlMesh::bytes() const {
-  return heap_bytes(positions) + heap_bytes(face_sizes) + heap_bytes(face_vertices) + heap_bytes(uv) +
-         heap_bytes(face_uv) + heap_bytes(creases) + heap_bytes(corners) + heap_bytes(holes) +
-         heap_bytes(face_groups) + heap_bytes(groups);
+  return vector_bytes(positions) + vector_bytes(face_sizes) + vector_bytes(face_vertices) + vector_bytes(uv) +
+         vector_bytes(face_uv) + vector_bytes(creases) + vector_bytes(corners) + vector_bytes(holes) +
+         vector_bytes(face_groups) + vector_bytes(groups);
 }
 
 }  // namespace pelage

@@ -13,7 +13,7 @@ struct Point {
   Pair xy, z;
 };
 
-Point load(const float* p) { return {Pair{p[0], p[1]}, Pair{p[2], 0}}; }
+Point load_point(const float* p) { return {Pair{p[0], p[1]}, Pair{p[2], 0}}; }
 void store(const Point& p, float* out) {
   out[0] = static_cast<float>(p.xy[0]);
   out[1] = static_cast<float>(p.xy[1]);
@@ -55,7 +55,7 @@ PointRules::Terms PointRules::terms(size_t made) const {
 
 void PointRules::apply(float* points) const {
   std::vector<Point> all(point_count());
-  for (size_t i = 0; i < control_count; ++i) all[i] = load(points + i * 3);
+  for (size_t i = 0; i < control_count; ++i) all[i] = load_point(points + i * 3);
   for (size_t i = 0; i < made_count(); ++i) {
     Point& made = all[control_count + i];
     made = sum(*this, i, all, [](uint32_t point) { return point; });
@@ -68,7 +68,7 @@ void PointRules::apply(float* points, const PointBlocks& blocks) const {
   for_each_point(blocks, [&](uint32_t point) {
     const size_t at = blocks[point];
     if (point < control_count) {
-      all[at] = load(points + at * 3);
+      all[at] = load_point(points + at * 3);
       return;
     }
     all[at] = sum(*this, point - control_count, all, [&](uint32_t p) { return blocks[p]; });

@@ -23,7 +23,7 @@ constexpr float kHeight = 2;
 constexpr int kMaxShrinks = 40;
 /// Balls are made smaller by this fraction of their radius, and by this fraction of the largest coordinate:
 /// more than the rounding errors of clearances, of centers and of ray tests.
-constexpr float kMargin = 1e-3f, kRounding = 4e-6f;
+constexpr float kMargin = 1e-3f, kBallRounding = 4e-6f;
 
 struct GridCell {
   int64_t x, y, z;
@@ -88,7 +88,7 @@ struct SkinBalls::Builder {
     }
     for (int axis = 0; axis < 3; ++axis)
       rounding = std::max({rounding, std::abs(box.min[axis]), std::abs(box.max[axis])});
-    rounding *= kRounding;
+    rounding *= kBallRounding;
   }
 
   /// Returns one sample per cell, in the order of the keys of cells.

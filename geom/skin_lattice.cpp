@@ -11,7 +11,7 @@ namespace pelage {
 namespace {
 
 constexpr uint64_t kMaxElements = std::numeric_limits<int32_t>::max();
-constexpr size_t kFacesPerCheck = 4096;
+constexpr size_t kItemsPerCheck = 4096;
 
 void sort_unique(std::vector<uint32_t>& values) {
   std::sort(values.begin(), values.end());
@@ -43,7 +43,7 @@ SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const 
   inside_.reserve(faces.size());
   size_t next = 0;
   for (const uint32_t id : around) {
-    if (faces_.size() % kFacesPerCheck == 0) check_stop();
+    if (faces_.size() % kItemsPerCheck == 0) check_stop();
     Face face{id, {kNone, kNone, kNone, kNone}};
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
       const uint32_t wanted = line_id(id, side);
@@ -80,7 +80,7 @@ std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
   if (seen.empty()) ids.reserve(faces.size() * topology_.corners_per_face());
   size_t done = 0, count = 0;
   for (const uint32_t face : faces) {
-    if (done++ % kFacesPerCheck == 0) check_stop();
+    if (done++ % kItemsPerCheck == 0) check_stop();
     if (topology_.hole[face]) continue;
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
       const uint32_t id = line_id(face, side);
@@ -110,7 +110,7 @@ void SkinLattice::find_lines(std::span<const uint32_t> faces, const CheckStop& c
   const bool many = ids.size() > topology_.cage.edge_count() / 8;
   std::vector<bool> seen(many ? topology_.control_count : 0);
   for (size_t i = 0; i < ids.size(); ++i) {
-    if (i % kFacesPerCheck == 0) check_stop();
+    if (i % kItemsPerCheck == 0) check_stop();
     lines_[i].id = ids[i];
     if (!is_edge(ids[i])) continue;
     const uint32_t* ends = &topology_.cage.edge_vertices[size_t(ids[i]) * 2];
@@ -299,7 +299,7 @@ void SkinLattice::number(const CheckStop& check_stop) {
   vertex_count_ = triangle_count_ = 0;
   for (Line& line : lines_) line.start = line.end = line.inner = kNone;
   for (const uint32_t inside : inside_) {
-    if (numbered++ % kFacesPerCheck == 0) check_stop();
+    if (numbered++ % kItemsPerCheck == 0) check_stop();
     Face& face = faces_[inside];
     face.triangle = static_cast<uint32_t>(triangle_count_);
     if (is_hole(face)) continue;

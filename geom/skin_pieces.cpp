@@ -18,7 +18,7 @@ struct CageFace {
   V3f middle{0};
 };
 
-void sort_unique(std::vector<uint32_t>& values) {
+void sort_without_repeats(std::vector<uint32_t>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
@@ -149,7 +149,7 @@ std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<co
     for (uint32_t use = impl.first_use[vertex]; use < impl.first_use[vertex + 1]; ++use)
       whole.push_back(impl.face_of_use(impl.uses[use]));
   }
-  sort_unique(whole);
+  sort_without_repeats(whole);
   std::vector<uint32_t> around;
   for (const uint32_t face : whole) {
     for (uint32_t f = cage.first_ptex[face]; f < cage.first_ptex[face + 1]; ++f) around.push_back(f);
@@ -168,7 +168,7 @@ std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<con
     vertices.insert(vertices.end(), cage.corner_vertex.begin() + cage.first_corner[whole],
                     cage.corner_vertex.begin() + cage.first_corner[whole + 1]);
   }
-  sort_unique(vertices);
+  sort_without_repeats(vertices);
   return vertices;
 }
 

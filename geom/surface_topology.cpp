@@ -22,7 +22,7 @@ namespace {
 constexpr int kSharpLevels = 6;
 
 template <class T>
-size_t heap_bytes(const std::vector<T>& values) {
+size_t topology_bytes(const std::vector<T>& values) {
   return values.capacity() * sizeof(T);
 }
 
@@ -51,7 +51,7 @@ ContentHash hash_cage(const ControlMesh& mesh, SubdivisionScheme scheme, Boundar
   return hasher.digest();
 }
 
-CageConnectivity connect(const Far::TopologyRefiner& refiner, SubdivisionScheme scheme) {
+CageConnectivity connect_cage(const Far::TopologyRefiner& refiner, SubdivisionScheme scheme) {
   const bool triangular = scheme == SubdivisionScheme::kLoop,
              faceted = scheme == SubdivisionScheme::kBilinear;
   const Far::TopologyLevel& base = refiner.GetLevel(0);
@@ -94,8 +94,8 @@ uint32_t ptex_at_corner(const CageConnectivity& cage, uint32_t face, uint32_t co
 }
 
 /// Ptex face on the other side of edge `i` of cage face `face`, at the end with its corner `near`; or -1.
-int across(const Far::TopologyLevel& base, const CageConnectivity& cage, uint32_t face, uint32_t i,
-           uint32_t near) {
+int neighbour_across(const Far::TopologyLevel& base, const CageConnectivity& cage, uint32_t face, uint32_t i,
+                     uint32_t near) {
   const auto edge = static_cast<int>(cage.corner_edge[cage.first_corner[face] + i]);
   const Far::ConstIndexArray faces = base.GetEdgeFaces(edge);
   if (faces.size() != 2) return -1;
@@ -118,13 +118,14 @@ void fill_ptex_faces(SurfaceTopology::Impl& impl, const Far::TopologyLevel& base
     impl.cage_face.insert(impl.cage_face.end(), whole ? 1 : n, face);
     impl.part.insert(impl.part.end(), whole ? 1 : n, whole ? 0 : 1);
     if (whole) {
-      for (uint32_t i = 0; i < n; ++i) impl.neighbours.push_back(across(base, cage, face, i, i));
+      for (uint32_t i = 0; i < n; ++i) impl.neighbours.push_back(neighbour_across(base, cage, face, i, i));
     } else {
       for (uint32_t i = 0; i < n; ++i) {
         const uint32_t before = (i + n - 1) % n;
         const int next = static_cast<int>(first + (i + 1) % n), previous = static_cast<int>(first + before);
-        impl.neighbours.insert(impl.neighbours.end(), {across(base, cage, face, i, i), next, previous,
-                                                       across(base, cage, face, before, i)});
+        impl.neighbours.insert(impl.neighbours.end(),
+                               {neighbour_across(base, cage, face, i, i), next, previous,
+                                neighbour_across(base, cage, face, before, i)});
       }
     }
     if (mesh.face_uv.empty()) continue;
@@ -238,9 +239,9 @@ void SurfaceTopology::Impl::list_uses(uint32_t vertices) {
 }
 
 size_t CageConnectivity::bytes() const {
-  return heap_bytes(first_corner) + heap_bytes(corner_vertex) + heap_bytes(corner_edge) +
-         heap_bytes(edge_vertices) + heap_bytes(edge_split) + heap_bytes(vertex_split) +
-         heap_bytes(first_ptex);
+  return topology_bytes(first_corner) + topology_bytes(corner_vertex) + topology_bytes(corner_edge) +
+         topology_bytes(edge_vertices) + topology_bytes(edge_split) + topology_bytes(vertex_split) +
+         topology_bytes(first_ptex);
 }
 
 SurfaceTopology::SurfaceTopology(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -275,7 +276,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   }
   const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(mesh, scheme, boundary, source);
   impl->triangular = scheme == SubdivisionScheme::kLoop;
-  impl->cage = connect(*refiner, scheme);
+  impl->cage = connect_cage(*refiner, scheme);
   fill_ptex_faces(*impl, refiner->GetLevel(0), mesh);
   impl->list_uses(impl->control_count);
   check_stop();
@@ -320,9 +321,9 @@ V2f SurfaceTopology::texture_coordinates(uint32_t face, float u, float v) const 
 
 size_t SurfaceTopology::bytes() const {
   const Impl& i = *impl_;
-  size_t bytes = sizeof(Impl) + i.cage.bytes() + heap_bytes(i.cage_face) + heap_bytes(i.hole) +
-                 heap_bytes(i.part) + heap_bytes(i.neighbours) + heap_bytes(i.uv) + heap_bytes(i.polygon) +
-                 heap_bytes(i.first_use) + heap_bytes(i.uses);
+  size_t bytes = sizeof(Impl) + i.cage.bytes() + topology_bytes(i.cage_face) + topology_bytes(i.hole) +
+                 topology_bytes(i.part) + topology_bytes(i.neighbours) + topology_bytes(i.uv) +
+                 topology_bytes(i.polygon) + topology_bytes(i.first_use) + topology_bytes(i.uses);
   if (i.flat) return bytes;
   const Far::PatchTable& patches = *i.patches;
   const size_t patch_count = patches.GetPatchParamTable().size();
@@ -330,10 +331,10 @@ size_t SurfaceTopology::bytes() const {
       patches.GetPatchControlVerticesTable().size() * sizeof(int) + patch_count * sizeof(Far::PatchParam);
   // The patch map: a handle per patch, one tree node per ptex face and one per three patches.
   bytes += patch_count * sizeof(Far::PatchTable::PatchHandle) + (patch_count / 3 + i.cage_face.size()) * 16;
-  bytes += heap_bytes(i.first_patch) + heap_bytes(i.face_patches);
+  bytes += topology_bytes(i.first_patch) + topology_bytes(i.face_patches);
   if (const Stencils* local = patches.GetLocalPointStencilTable<float>()) {
-    bytes += heap_bytes(local->GetSizes()) + heap_bytes(local->GetOffsets()) +
-             heap_bytes(local->GetControlIndices()) + heap_bytes(local->GetWeights());
+    bytes += topology_bytes(local->GetSizes()) + topology_bytes(local->GetOffsets()) +
+             topology_bytes(local->GetControlIndices()) + topology_bytes(local->GetWeights());
   }
   bytes += i.rules.bytes();
   return bytes;

@@ -16,7 +16,7 @@ namespace pelage {
 namespace {
 
 constexpr size_t kFacesAtOnce = 64;
-constexpr size_t kPointsAtOnce = 1024;
+constexpr size_t kPointsPerTask = 1024;
 
 /// Parallel loops, with a check before each range.
 struct Loops {
@@ -70,7 +70,7 @@ SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, co
   for (size_t key = 0; key < keys.size(); ++key) {
     float* positions = mesh.positions.data() + key * points.size() * 3;
     float* normals = mesh.normals.data() + key * points.size() * 3;
-    loops.for_each(points.size(), kPointsAtOnce, [&](WorkRange range) {
+    loops.for_each(points.size(), kPointsPerTask, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         const auto& [face, uv] = points[i];
         const SurfacePoint p = keys[key].evaluate(face, uv.x, uv.y);

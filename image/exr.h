@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,8 +19,14 @@ struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
+  bool is_empty() const { return x0 >= x1 || y0 >= y1; }
   bool operator==(const PixelBox&) const = default;
 };
+
+/// Returns the pixels that are in both boxes.
+inline PixelBox intersection(const PixelBox& a, const PixelBox& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 class MemoryLedger;
 class Workers;

@@ -100,14 +100,14 @@ ExrPart describe(const Imf::Header& header, const std::filesystem::path& path) {
 
 /// Number of rows compressed together, by compression (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA,
 /// DWAB).
-constexpr int kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+constexpr int kRowsPerBlock[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 /// A block is stored as in the file, as pixels, and once in between.
 constexpr int64_t kCopiesOfBlock = 3;
 
 /// Memory of the library while it reads or writes a part with `team` threads: two blocks of rows each.
 int64_t bytes_of_blocks(const Imf::Header& header, const ExrPart& part, int team) {
   const auto compression = static_cast<size_t>(header.compression());
-  int64_t rows = compression < std::size(kBlockRows) ? kBlockRows[compression] : 256;
+  int64_t rows = compression < std::size(kRowsPerBlock) ? kRowsPerBlock[compression] : 256;
   if (header.hasTileDescription()) rows = std::max<int64_t>(rows, header.tileDescription().ySize);
   int64_t pixel = 0;
   for (const ExrChannelInfo& channel : part.channels) pixel += channel.type == ChannelType::kHalf ? 2 : 4;

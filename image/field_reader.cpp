@@ -167,7 +167,7 @@ bool read_noise(const Value& value, const KeyOptions& options, Field& out, Probl
   return true;
 }
 
-bool read_attribute(const Value& value, const KeyOptions&, Field& out, Problems& problems) {
+bool read_attribute_field(const Value& value, const KeyOptions&, Field& out, Problems& problems) {
   AttributeForm form;
   if (!AttributeForm::schema().read(value, form, problems)) return false;
   if (form.attribute.empty()) {
@@ -197,16 +197,16 @@ struct Form {
 constexpr Form kForms[] = {{"map", read_map},
                            {"ramp", read_ramp},
                            {"noise", read_noise},
-                           {"attribute", read_attribute},
+                           {"attribute", read_attribute_field},
                            {"product", read_product}};
 
 /// The limits of the key, as floats inside them.
 std::pair<float, float> float_limits(const KeyOptions& options) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float infinite = std::numeric_limits<float>::infinity();
   float low = static_cast<float>(options.min);
-  if (static_cast<double>(low) < options.min || options.above_min) low = std::nextafter(low, kInfinity);
+  if (static_cast<double>(low) < options.min || options.above_min) low = std::nextafter(low, infinite);
   float high = static_cast<float>(options.max);
-  if (static_cast<double>(high) > options.max) high = std::nextafter(high, -kInfinity);
+  if (static_cast<double>(high) > options.max) high = std::nextafter(high, -infinite);
   return {low, high};
 }
 

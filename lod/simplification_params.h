@@ -21,8 +21,8 @@ struct SimplificationParams {
 template <class P>
 void add_simplification_keys(Schema<P>& s) {
   using Base = SimplificationParams;
-  const auto key = [&s]<class T>(const char* name, T Base::*member, KeyOptions options) {
-    s.key(name, static_cast<T P::*>(member), std::move(options));
+  const auto key = [&s]<class T>(const char* name, T Base::*member, const KeyOptions& options) {
+    s.key(name, static_cast<T P::*>(member), options);
   };
   key("quality", &Base::quality,
       {.help = "Factor on the resolution for which strands are kept: 2 keeps the strands that a picture of "

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kOtherEye = 1;  // time
 
-struct Scratch {
-  Scratch(const StereoJob& job, const PostLayers& layers)
+struct StripScratch {
+  StripScratch(const StereoJob& job, const PostLayers& layers)
       : box(layers, job.filter == StereoFilter::kBox), lanczos(layers, job.target.scale) {}
   WorkBuffer buffer{PixelBox{}, 1};
   std::vector<uint8_t> invented;  // a row of samples
@@ -26,7 +26,7 @@ struct Scratch {
 };
 
 /// Fills the gaps of all rows of the buffer, and counts samples per pixel in the rows of the strip.
-void fill_strip(const StereoJob& job, int y0, int y1, Scratch& scratch) {
+void fill_strip(const StereoJob& job, int y0, int y1, StripScratch& scratch) {
   const int s = job.target.scale;
   const auto width = static_cast<size_t>(job.width);
   // Nothing moves into the picture from farther away.
@@ -62,7 +62,7 @@ void write_parts(const std::optional<Plane>& plane, const std::vector<uint32_t>&
   }
 }
 
-void stereo_strip(const StereoJob& job, const Warp& warp, int y0, int y1, Scratch& scratch) {
+void stereo_strip(const StereoJob& job, const Warp& warp, int y0, int y1, StripScratch& scratch) {
   const int s = job.target.scale, margin = stereo_margin(job.filter);
   scratch.buffer.reset({0, std::max(0, y0 - margin), job.width, std::min(job.height, y1 + margin)}, s);
   for (const FlowField::Block* block : warp.reaching(scratch.buffer.samples(), kOtherEye, kOtherEye)) {
@@ -101,11 +101,11 @@ void stereo_rows(const StereoJob& job, const PostLayers& layers, int strip_rows,
   const Warp warp(*job.field, target);
   strip_rows = std::max(1, strip_rows);
   const int strips = (job.last_row - job.first_row + strip_rows - 1) / strip_rows;
-  std::vector<std::unique_ptr<Scratch>> scratch(static_cast<size_t>(workers.thread_count()));
+  std::vector<std::unique_ptr<StripScratch>> scratch(static_cast<size_t>(workers.thread_count()));
   workers.for_each(static_cast<size_t>(strips), 1, [&](WorkRange range) {
     if (progress.cancelled()) return;
     auto& mine = scratch[static_cast<size_t>(range.worker)];
-    if (!mine) mine = std::make_unique<Scratch>(job, layers);
+    if (!mine) mine = std::make_unique<StripScratch>(job, layers);
     const int y0 = job.first_row + static_cast<int>(range.begin) * strip_rows;
     const int y1 = std::min(y0 + strip_rows, job.last_row);
     stereo_strip(job, warp, y0, y1, *mine);

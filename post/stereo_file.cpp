@@ -143,9 +143,9 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
   }
 }
 
-std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFileParams& params,
-                                      const StereoCamera& camera, const Workers& workers,
-                                      PostReport& report) {
+std::unique_ptr<FlowField> make_disparity_field(const ViewImage& image, const StereoFileParams& params,
+                                                const StereoCamera& camera, const Workers& workers,
+                                                PostReport& report) {
   check_field_memory(image, 0, params.file.memory);
   const LayerFinder& layers = image.layers();
   if (!layers.depth()) {
@@ -207,7 +207,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
   moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
   const ViewImage& image = *moving.image;
   const StereoCamera camera = params.parallax.empty() ? pick_camera(image, params) : StereoCamera();
-  moving.field = make_field(image, params, camera, job.workers, report);
+  moving.field = make_disparity_field(image, params, camera, job.workers, report);
   const FlowField& field = *moving.field;
   report.longest = std::max(std::abs(field.low().x), std::abs(field.high().x));
 

@@ -18,7 +18,7 @@
 #include "render/frame/frame_chunks.h"
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_window.h"
-#include "render/gather/gather_loop.h"
+#include "render/gather/gather_tracer.h"
 #include "render/weighted_selection.h"
 
 namespace pelage {
@@ -177,8 +177,8 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   estimate.film_bytes = Film::bytes_needed(window.film.width(), window.film.height(), layers);
   const MemoryCharge film = reserve(job.ledger, MemoryTag::kFilm, estimate.film_bytes, "the frame buffer");
   const int64_t before = job.ledger.budgeted();
-  GatherLoop::Memory tiles;
-  if (scene.render.integrator == Integrator::kGather) tiles = GatherLoop::reserve_tiles(scene, job);
+  GatherTracer::Memory tiles;
+  if (scene.render.integrator == Integrator::kGather) tiles = GatherTracer::reserve(scene, job);
   estimate.buffer_bytes = job.ledger.budgeted() - before;
 
   FrameChunks chunks(scene, job);

@@ -5,6 +5,7 @@
 
 #include "image/exr.h"
 #include "render/path/path_options.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -14,6 +15,8 @@ class FrameWatch;
 /// How to render a frame, apart from the values of its scene.
 struct FrameOptions {
   PathOptions path = {};
+  /// Settings that replace those of the scene; empty: none do
+  std::optional<FrameSettings> settings = {};
   std::optional<PixelBox> region = {};  ///< the only pixels to compute; empty: the whole picture
   FrameWatch* watch = nullptr;          ///< sees the film between passes; may be null
   FrameSaver* saver = nullptr;          ///< stores the state of the frame; may be null, see check_saving()

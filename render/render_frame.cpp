@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render_frame.h"
 
-#include <algorithm>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/stopwatch.h"
@@ -14,15 +16,14 @@
 #include "render/frame/frame_loop.h"
 #include "render/frame/frame_saver.h"
 #include "render/frame/frame_watch.h"
-#include "render/frame/sample_schedule.h"
-#include "render/gather/gather_loop.h"
+#include "render/frame/sample_passes.h"
+#include "render/gather/gather_tracer.h"
 #include "render/path/path_tracer.h"
-#include "render/sampling/adaptive_rule.h"
 
 namespace pelage {
 namespace {
 
-FilmLayers film_layers(const RenderScene& scene) {
+FilmLayers film_layers(const FrameScene& scene) {
   std::vector<FilmLayers::LightInfo> lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
@@ -48,43 +49,43 @@ class TighteningWatch final : public FrameWatch {
   FrameWatch& watch_;
 };
 
-/// Renders with one path after another.
-TileCosts trace_paths(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
-                      const Job& job, const Stopwatch& clock, FrameResult& result) {
-  const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options.path);
-  FrameLoop loop(tracer, job, result.film, result.window, clock, options.saver);
+/// The integrator of a frame, ready to trace tiles. `memory`: of the integrator `gather`. `costs` receives
+/// the costs of making it.
+std::unique_ptr<const TileIntegrator> make_integrator(const FrameScene& scene, const FrameGeometry& geometry,
+                                                      const PathOptions& options, GatherTracer::Memory memory,
+                                                      const Job& job, const Stopwatch& clock,
+                                                      FrameResult& result, TileCosts& costs) {
+  const FilmLayers& layers = result.film.layers();
+  if (scene.render.integrator == Integrator::kPath)
+    return std::make_unique<PathTracer>(scene, geometry.accel(), layers, options);
+  auto gather = std::make_unique<GatherTracer>(scene, geometry.accel(), geometry.chunks(), layers, options,
+                                               std::move(memory));
+  costs += gather->fill_cache(job, clock, result.statistics);
+  return gather;
+}
+
+/// Takes all samples of a frame. Returns what they cost.
+TileCosts take_samples(const TileIntegrator& integrator, const RenderParams& render, FrameGeometry& geometry,
+                       const FrameOptions& options, const Job& job, const Stopwatch& clock,
+                       FrameResult& result) {
+  FrameLoop loop(integrator, job, result.film, result.window, clock, options.saver);
   std::optional<TighteningWatch> watch;
   if (options.watch) watch.emplace(geometry, job, *options.watch);
-  const ScheduleEnd end =
-      SampleSchedule(loop, scene.render, job, clock, geometry.fits(), watch ? &*watch : nullptr).run();
+  const SamplePasses::End end =
+      SamplePasses(loop, render, job, clock, geometry.fits(), watch ? &*watch : nullptr).run();
   if (end.partial && options.saver) options.saver->save(loop.state());
   result.partial = end.partial;
   result.time_limited = end.time_limited;
-  result.samples = loop.min_samples();
-  result.clamped_fraction = loop.clamped_fraction();
-  result.mean_samples = loop.mean_samples();
-  result.noise = frame_noise(result.film.moments());
-  result.first_tile_s = loop.first_tile_s();
-  loop.add_to(result.statistics);
-  return loop.costs();
-}
-
-TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
-                 GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock, FrameResult& result) {
-  std::optional<TighteningWatch> watch;
-  if (options.watch) watch.emplace(geometry, job, *options.watch);
-  GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options.path, tiles, geometry.fits(), job,
-                  clock, result, watch ? &*watch : nullptr, options.saver);
-  loop.run();
+  loop.report(result);
   return loop.costs();
 }
 
 /// Finds the balls inside skins, if the scene asks for them. Returns false when cancelled.
-bool prepare_shadows(const RenderScene& scene, FrameGeometry& geometry, const Job& job, PathOptions& path,
-                     FrameStatistics& statistics) try {
+bool prepare_shadows(const RenderScene& contents, const FrameScene& scene, FrameGeometry& geometry,
+                     const Job& job, PathOptions& path, FrameStatistics& statistics) try {
   if (scene.render.ball_use(scene.skins.size()) == SkinBallUse::kOff) return true;
   const Stopwatch clock;
-  path.balls = &geometry.shadows(scene, job);
+  path.balls = &geometry.shadows(contents, job);
   statistics.stages_s["skin balls"] += clock.seconds();
   return true;
 } catch (const Error& error) {
@@ -124,26 +125,30 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
 FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options,
                          std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept) {
   const Stopwatch clock;
-  if (options.region) check_region(scene.image, scene.render, *options.region);
-  if (options.saver) check_saving(scene.render);
-  const FilmLayers layers = film_layers(scene);
+  const FrameScene used = options.settings ? FrameScene(scene, *options.settings) : FrameScene(scene);
+  PELAGE_CHECK(used.image.width == scene.image.width && used.image.height == scene.image.height);
+  if (options.region) check_region(used.image, used.render, *options.region);
+  if (options.saver) check_saving(used.render);
+  const FilmLayers layers = film_layers(used);
   job.ledger.set_limit(scene.render.memory.bytes);
   const FrameWindow window =
       frame_window(scene.image.width, scene.image.height, options.region, layers.splat);
   const int width = window.film.width(), height = window.film.height();
   require_memory(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
-  const bool gathers = scene.render.integrator == Integrator::kGather;
   FrameResult result{Film(width, height, layers, job.ledger), window};
-  GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
+  GatherTracer::Memory memory;
+  if (used.render.integrator == Integrator::kGather) memory = GatherTracer::reserve(used, job);
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
-  FrameOptions used = options;
-  result.partial = !geometry || !prepare_shadows(scene, *geometry, job, used.path, result.statistics);
+  PathOptions path = options.path;
+  result.partial = !geometry || !prepare_shadows(scene, used, *geometry, job, path, result.statistics);
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
   const double prepared_cpu_s = geometry->growth_cpu_s();
-  const TileCosts costs = gathers ? gather(scene, *geometry, used, tiles, job, clock, result)
-                                  : trace_paths(scene, *geometry, used, job, clock, result);
+  TileCosts costs;
+  const auto integrator =
+      make_integrator(used, *geometry, path, std::move(memory), job, clock, result, costs);
+  costs += take_samples(*integrator, used.render, *geometry, options, job, clock, result);
   result.statistics.occlusion += costs.occlusion;
   result.statistics.cpu_s += render_seconds(costs, geometry->growth_cpu_s() - prepared_cpu_s);
   geometry->add_to(result.statistics);

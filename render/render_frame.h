@@ -21,9 +21,9 @@ void check_region(const ImageParams& image, const RenderParams& render, const Pi
 /// adaptive sampling or a time limit. See FrameSaver.
 void check_saving(const RenderParams& render);
 
-/// Renders one frame with the integrator of the scene (render.integrator). First bounds all chunks. Then
-/// takes samples in passes over the whole picture (SampleSchedule, or GatherLoop for `gather`). A picture
-/// that is cancelled at any time is therefore valid, but has fewer samples.
+/// Renders one frame with the integrator of the scene (render.integrator) or of `options.settings`. First
+/// bounds all chunks. Then takes samples in passes over the whole picture (SamplePasses). A picture that is
+/// cancelled at any time is therefore valid, but has fewer samples.
 ///
 /// The same scene gives the same film for any number of threads, unless the time limit is reached. Throws
 /// Error. An error in a render thread reaches the caller after all threads have stopped.

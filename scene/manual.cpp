@@ -92,14 +92,14 @@ std::string indented(const std::string& text, const std::string& indent) {
 // "Formerly `a`." for a key that had another name.
 std::string former_names(const KeyInfo& key) {
   std::string text;
-  for (const std::string& name : key.options.old_names)
-    text += (text.empty() ? "" : ", ") + ("`" + name + "`");
+  for (const std::string_view name : key.options.old_names) {
+    if (!name.empty()) text += (text.empty() ? "`" : ", `") + std::string(name) + "`";
+  }
   return text.empty() ? text : "Formerly " + text + ".";
 }
 
-std::string with_stop(std::string help) {
-  if (!help.empty() && help.back() != '.') help += '.';
-  return help;
+std::string with_stop(std::string_view help) {
+  return std::string(help) + (help.empty() || help.back() == '.' ? "" : ".");
 }
 
 std::string plain_section(const SchemaInfo& table) {
@@ -108,13 +108,14 @@ std::string plain_section(const SchemaInfo& table) {
   std::string text = table.name() + "\n" + wrap(table.help(), "  ") + "\n";
   const std::string indent(width + 4, ' ');
   for (const KeyInfo& key : table.keys()) {
-    std::vector<std::string> facts{key.type, range_text(key.options), key.options.unit};
+    std::vector<std::string> facts{key.type, range_text(key.options), std::string(key.options.unit)};
     const std::string shown = default_of(key);
     if (!shown.empty()) facts.push_back(key.options.required ? shown : "default " + shown);
     std::string entry = wrap(join(facts, ", "), indent);
     entry.replace(2, key.name.size(), key.name);
     const std::string former = former_names(key);
-    text += entry + wrap(former.empty() ? key.options.help : join({with_stop(key.options.help), former}, " "),
+    text += entry + wrap(former.empty() ? std::string(key.options.help)
+                                        : join({with_stop(key.options.help), former}, " "),
                          indent);
     std::vector<std::string> sections;
     for (const SchemaInfo* block : key.blocks) sections.push_back(block->name());
@@ -124,7 +125,7 @@ std::string plain_section(const SchemaInfo& table) {
   return text;
 }
 
-std::string escape_cell(const std::string& text) {
+std::string escape_cell(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     if (c == '|' || c == '<') escaped += '\\';
@@ -160,7 +161,6 @@ std::string markdown_section(const SchemaInfo& table) {
     const std::string see = sections.empty() ? "" : "See " + join(sections, ", ") + ".";
     text += "| `" + key.name + "` | " + escape_cell(key.type) + " | " + escape_cell(default_of(key)) + " | " +
             escape_cell(range_text(key.options)) + " | " + escape_cell(key.options.unit) + " | " +
-
             join({escape_cell(with_stop(key.options.help)), former_names(key), see}, " ") + " |\n";
   }
   return text + "\n";

@@ -22,6 +22,16 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Settings of the coarse pictures by `path` that are shown before the first picture by `gather`.
+FrameSettings preview_settings(const RenderScene& scene) {
+  FrameSettings settings{scene.image, scene.render};
+  settings.render.integrator = Integrator::kPath;
+  settings.render.samples = 1;
+  settings.render.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
+  settings.image.filter_samples = FilterSamples::kDrawn;
+  return settings;
+}
+
 }  // namespace
 
 /// All that is kept between edits. The geometry refers to the world, and the world to the assets. While there
@@ -41,7 +51,9 @@ struct LiveRenderer::Loaded {
 /// Publishes a picture after each pass.
 class LiveRenderer::Watch final : public FrameWatch {
  public:
-  Watch(LiveRenderer& renderer, const SceneEdit& edit) : renderer_(renderer), edit_(edit) {}
+  /// `is_preview`: whether the picture has other settings than the scene.
+  Watch(LiveRenderer& renderer, const SceneEdit& edit, bool is_preview)
+      : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
 
   void passed(const Film& film, const PassState& state) override {
     ViewState& desk = renderer_.desk_;
@@ -62,9 +74,9 @@ class LiveRenderer::Watch final : public FrameWatch {
       status.layers = std::move(names);
       status.strands_regrown = regrown;
     });
-    renderer_.answer_questions();
+    if (!is_preview_) renderer_.answer_questions();
     // What follows is better seen in the picture itself.
-    if (renderer_.is_preview_ && state.grid <= 2) renderer_.preview_is_over_ = true;
+    if (is_preview_ && state.grid <= 2) renderer_.preview_is_over_ = true;
   }
   std::optional<PixelBox> region() const override { return renderer_.desk_.control().region(); }
   uint32_t region_version() const override { return renderer_.desk_.control().region_version(); }
@@ -72,6 +84,7 @@ class LiveRenderer::Watch final : public FrameWatch {
  private:
   LiveRenderer& renderer_;
   const SceneEdit& edit_;
+  const bool is_preview_;
 };
 
 LiveRenderer::LiveRenderer(ViewState& desk, int threads)
@@ -160,12 +173,16 @@ void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
       status.warnings.push_back(to_string(warning.position) + ": " + warning.message);
   });
   began_ = true;
+  preview_is_over_ = false;
   progress_.reset();
   const Job job{workers_, ledger_, progress_};
   const Redo redo = loaded_->edit ? edit->redo_after(*loaded_->edit) : Redo::kAssets;
   regrown_ = loaded_->geometry ? -loaded_->geometry->strands_regrown() : 0;
   if (redo == Redo::kSampling) {
+    const RenderParams& params = loaded_->world->scene.render;
+    const float min_width = params.min_width();
     recompose_sampling(edit->scene, loaded_->assets, loaded_->frame(), job, *loaded_->world);
+    if (params.min_width() != min_width) release_geometry();  // it has strands of the old min width
   } else if (redo > Redo::kSampling) {
     release_geometry();
     try {
@@ -207,47 +224,33 @@ void LiveRenderer::forget() {
 }
 
 void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
-  Watch watch(*this, edit);
-  RenderParams& params = loaded_->world->scene.render;
-  if (params.integrator == Integrator::kGather) {
+  const RenderScene& scene = loaded_->world->scene;
+  if (scene.render.integrator == Integrator::kGather) {
     // The first pass of `gather` is a whole picture. Coarse ones with `path` come before it.
-    ImageParams& image = loaded_->world->scene.image;
-    const RenderParams wanted = params;
-    const ImageParams wanted_image = image;
-    const auto restore = [&] {
-      params = wanted;
-      image = wanted_image;
-      is_preview_ = preview_is_over_ = false;
-    };
-    params.integrator = Integrator::kPath;
-    params.samples = 1;
-    params.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
-    image.filter_samples = FilterSamples::kDrawn;
-    is_preview_ = true;
-    try {
-      trace(job, watch);
-    } catch (...) {
-      restore();
-      throw;
-    }
-    restore();
+    Watch watch(*this, edit, true);
+    FrameOptions options;
+    options.settings = preview_settings(scene);
+    options.watch = &watch;
+    trace(job, options);
+    preview_is_over_ = false;
     if (must_end()) return;
-    if (params.min_width() > 0) release_geometry();  // the geometry of `path` has no widened strands
   }
-  FrameResult result = trace(job, watch);
+  Watch watch(*this, edit, false);
+  FrameOptions options;
+  options.watch = &watch;
+  FrameResult result = trace(job, options);
   if (!result.partial) finish(edit, std::move(result));
 }
 
-FrameResult LiveRenderer::trace(const Job& job, FrameWatch& watch) {
-  FrameOptions options;
-  options.watch = &watch;
+FrameResult LiveRenderer::trace(const Job& job, const FrameOptions& options) {
   try {
     return pelage::render(*loaded_->world, job, options, loaded_->geometry, &loaded_->fur);
   } catch (const Error& error) {
     const bool keeps = loaded_->geometry || loaded_->fur.has_frame();
     if (error.kind() != ErrorKind::kMemory || !keeps) throw;
   }
-  // Memory that is kept may be missing elsewhere: the film, for example, is charged before the geometry.
+  // Chunks kept from the last frame may occupy the memory that this frame needs: the film, for example, is
+  // charged before the geometry.
   release_geometry();
   loaded_->fur.free_chunks();
   return pelage::render(*loaded_->world, job, options, loaded_->geometry, &loaded_->fur);
@@ -288,7 +291,6 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
 }
 
 void LiveRenderer::answer_questions() {
-  if (is_preview_) return;
   desk_.why().answer([this](int x, int y) -> std::optional<CommandAnswer> {
     if (!loaded_->edit || !loaded_->geometry) return no_picture_answer();
     const ExplainedFrame frame{loaded_->edit->scene, loaded_->assets, *loaded_->world, loaded_->geometry,

@@ -16,7 +16,7 @@
 
 namespace pelage {
 
-class FrameWatch;
+struct FrameOptions;
 
 /// Renders the last edit of a scene on a thread of its own, and publishes its pictures on a ViewState. Keeps
 /// the world and its geometry between edits, and makes only those parts again that depend on the change. An
@@ -44,7 +44,7 @@ class LiveRenderer {
   /// Frees everything that is kept between edits.
   void forget();
   void render_loaded(const SceneEdit& edit, const Job& job);
-  FrameResult trace(const Job& job, FrameWatch& watch);
+  FrameResult trace(const Job& job, const FrameOptions& options);
   void finish(const SceneEdit& edit, FrameResult result);
   /// Answers what clients ask about the pixels of the picture.
   void answer_questions();
@@ -62,9 +62,8 @@ class LiveRenderer {
   StageProgress progress_;                    // before loaded_: chunks that are kept may warn
   // Used by thread_ only.
   std::unique_ptr<Loaded> loaded_;
-  bool began_ = false;       // whether an edit was rendered before
-  bool is_preview_ = false;  // whether the picture has other settings than the scene
-  int64_t regrown_ = 0;      // strands regrown since the edit, minus those that loaded_->geometry counts
+  bool began_ = false;   // whether an edit was rendered before
+  int64_t regrown_ = 0;  // strands regrown since the edit, minus those that loaded_->geometry counts
 
   std::mutex mutex_;  // guards next_
   std::condition_variable changed_;

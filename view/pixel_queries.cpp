@@ -9,10 +9,10 @@ namespace pelage {
 namespace {
 
 constexpr size_t kMaxQuestions = 8;  // the server has more threads
-constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::chrono::milliseconds kWhyPoll{20};
 constexpr std::chrono::seconds kPatience{60};
 
-CommandAnswer refusal(const char* why) { return {503, std::string("{\"error\": \"") + why + "\"}"}; }
+CommandAnswer busy_reply(const char* why) { return {503, std::string("{\"error\": \"") + why + "\"}"}; }
 
 }  // namespace
 
@@ -20,7 +20,7 @@ CommandAnswer PixelQueries::ask(int x, int y, const std::function<bool()>& gives
   const auto question = std::make_shared<Question>(Question{x, y, {}});
   {
     const std::lock_guard lock(mutex_);
-    if (questions_.size() >= kMaxQuestions) return refusal("too many questions at once; ask again");
+    if (questions_.size() >= kMaxQuestions) return busy_reply("too many questions at once; ask again");
     questions_.push_back(question);
   }
   {
@@ -29,10 +29,10 @@ CommandAnswer PixelQueries::ask(int x, int y, const std::function<bool()>& gives
   }
   const auto end = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock lock(mutex_);
-  while (!answered_.wait_for(lock, kPoll, [&] { return question->answer.has_value(); })) {
+  while (!answered_.wait_for(lock, kWhyPoll, [&] { return question->answer.has_value(); })) {
     if (!gives_up() && std::chrono::steady_clock::now() < end) continue;
     std::erase(questions_, question);
-    return refusal("no answer in time; ask again when the picture is there");
+    return busy_reply("no answer in time; ask again when the picture is there");
   }
   return *question->answer;
 }

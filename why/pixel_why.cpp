@@ -12,7 +12,6 @@
 #include "render/frame/frame_shading.h"
 #include "render/frame/skin_point.h"
 #include "render/frame/strand_fields.h"
-#include "why/kept_settings.h"
 
 namespace pelage {
 namespace {
@@ -60,7 +59,7 @@ std::vector<LightTerm> light_terms(const Film& film, const LightSet& lights, int
 
 float opacity_at(const RenderScene& frame, const SeenSurface& surface) {
   const FurPart& part = frame.fur[surface.hit.part];
-  const Strands& strand = surface.met.strand;
+  const Strands& strand = surface.hit_geometry.strand;
   const FibreParams& fibre = *fibre_params(frame.materials[part.material]);
   std::vector<float> opacities = point_opacities(fibre.opacity, strand, part);
   if (opacities.empty()) return 1;
@@ -90,17 +89,19 @@ MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& f
   return why;
 }
 
-/// Gives the film of a frame all layers, and each pixel all its samples.
-void set_all_layers(RenderScene& scene) {
-  scene.image.light_layers = scene.image.event_layers = true;
-  scene.image.noise_layers = scene.render.integrator == Integrator::kPath;
-  scene.render.adaptive.reset();
-  scene.render.time_limit = 0;
+/// Settings with which the film of a frame has all layers, and each pixel all its samples.
+FrameSettings with_all_layers(const RenderScene& scene) {
+  FrameSettings settings{scene.image, scene.render};
+  settings.image.light_layers = settings.image.event_layers = true;
+  settings.image.noise_layers = scene.render.integrator == Integrator::kPath;
+  settings.render.adaptive.reset();
+  settings.render.time_limit = 0;
+  return settings;
 }
 
 SkinWhy explain_skin(const RenderScene& scene, const SeenSurface& surface) {
   const SkinPart& part = scene.skins[surface.hit.part];
-  const SkinMesh& triangle = surface.met.triangle;
+  const SkinMesh& triangle = surface.hit_geometry.triangle;
   SkinWhy why{part.name, triangle.faces[0], skin_parameters(triangle, surface.hit), V2f(0)};
   if (part.rest) why.uv = part.rest->topology().texture_coordinates(why.face, why.place.x, why.place.y);
   return why;
@@ -138,15 +139,14 @@ void check_pixel(const ImageParams& image, int x, int y) {
 }
 
 PixelWhy explain_pixel(const ExplainedFrame& frame, int x, int y, const Job& job) {
-  RenderScene& scene = frame.world.scene;
+  const RenderScene& scene = frame.world.scene;
   check_pixel(scene.image, x, y);
   PixelWhy why;
   why.x = x;
   why.y = y;
   why.is_adaptive = scene.render.adaptive.has_value();
-  const KeptSettings kept(scene);
-  set_all_layers(scene);
   FrameOptions options;
+  options.settings = with_all_layers(scene);
   options.region = PixelBox{x, y, x + 1, y + 1};
   const Growth before(frame.geometry.get());
   const FrameResult result = render(frame.world, job, options, frame.geometry, frame.kept);

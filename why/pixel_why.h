@@ -82,11 +82,11 @@ struct PixelWhy {
   bool is_adaptive = false;  ///< whether the picture chooses the sample count of the pixel; here it has all
 };
 
-/// A frame that is explained. While a pixel is explained, `image` and `render` of the world differ.
+/// A frame that is explained.
 struct ExplainedFrame {
   const SceneDescription& scene;
   Assets& assets;
-  World& world;                              ///< composed from `scene` and `assets`
+  const World& world;                        ///< composed from `scene` and `assets`
   std::unique_ptr<FrameGeometry>& geometry;  ///< of the world; made if null
   KeptFur* kept = nullptr;                   ///< see render_frame()
 };

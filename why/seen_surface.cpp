@@ -32,7 +32,7 @@ SeenSurfaces find_seen_surfaces(const RenderScene& scene, const Accel& accel, bo
   std::map<std::pair<std::string, std::optional<uint64_t>>, uint32_t> counts;
   for (uint32_t i = 0; i < samples; ++i) {
     SampleStream stream = camera.stream(x, y, i);
-    const CameraSample from = camera.draw(x, y, i, stream);
+    const CameraSample from = camera.sample(x, y, i, stream);
     const Hit hit = accel.closest(from.ray, thread);
     const SeenCount what = count_of(scene, hit);
     ++counts[{what.name, what.strand}];
@@ -41,7 +41,7 @@ SeenSurfaces find_seen_surfaces(const RenderScene& scene, const Accel& accel, bo
     if (hit) sample.surface.depth = shading.depth(from.ray, hit);
     if (!front.offer(sample.surface, sample.inside_pixel())) continue;
     seen.front.reset();
-    if (hit) seen.front = SeenSurface{from.ray, hit, thread.met};
+    if (hit) seen.front = SeenSurface{from.ray, hit, thread.hit_geometry};
   }
   for (const auto& [what, count] : counts) seen.counts.push_back({what.first, what.second, count});
   std::stable_sort(seen.counts.begin(), seen.counts.end(),

@@ -15,7 +15,7 @@ namespace pelage {
 struct SeenSurface {
   Ray ray;
   Hit hit;
-  HitGeometry met;  ///< the strand or the triangle of the hit
+  HitGeometry hit_geometry;  ///< the strand or the triangle of the hit
 };
 
 /// How many camera samples of a pixel see a strand, a skin, or nothing.

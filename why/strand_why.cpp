@@ -123,7 +123,7 @@ StrandPlaces strand_places(const Strands& strand) {
 StrandWhy explain_strand(const SceneDescription& scene, Assets& assets, const RenderScene& frame,
                          const SeenSurface& surface, const Job& job) {
   const Hit& hit = surface.hit;
-  const Strands& seen = surface.met.strand;
+  const Strands& seen = surface.hit_geometry.strand;
   const FurPart& part = frame.fur[hit.part];
   const Grown strand = find_strand(part, hit.strand_id);
   StrandWhy why;

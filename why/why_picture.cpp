@@ -6,7 +6,6 @@
 #include <span>
 
 #include "image/view_transform.h"
-#include "why/kept_settings.h"
 
 namespace pelage {
 namespace {
@@ -110,14 +109,16 @@ class Enlarged {
 }  // namespace
 
 DisplayImage why_picture(const ExplainedFrame& frame, const PixelWhy& why, const Job& job) {
-  RenderScene& scene = frame.world.scene;
+  const RenderScene& scene = frame.world.scene;
   const PixelBox part = part_around(why, scene.image.width, scene.image.height);
   const int64_t pixels = static_cast<int64_t>(part.width()) * part.height();
-  const KeptSettings kept(scene);
-  scene.render.adaptive.reset();
-  scene.render.samples = static_cast<int>(std::clamp<int64_t>(kMaxSamples / pixels, 1, scene.render.samples));
   FrameOptions options;
   options.region = part;
+  FrameSettings settings{scene.image, scene.render};
+  settings.render.adaptive.reset();
+  settings.render.samples =
+      static_cast<int>(std::clamp<int64_t>(kMaxSamples / pixels, 1, scene.render.samples));
+  options.settings = settings;
   const FrameResult result = render(frame.world, job, options, frame.geometry, frame.kept);
   job.check_stop();
 

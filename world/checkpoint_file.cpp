@@ -41,7 +41,7 @@ std::optional<FrameInputs> from_lines(std::span<const std::byte> bytes) {
   return values;
 }
 
-std::span<const std::byte> bytes_of(const std::string& text) {
+std::span<const std::byte> text_bytes(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
@@ -100,9 +100,9 @@ bool CheckpointFile::write(const std::filesystem::path& path, const CheckpointRe
   const std::string inputs = to_lines(record.inputs);
   FrameInputs progress{{kSeconds, fmt::format("{}", record.seconds)}};
   if (record.picture) progress[kPicture] = to_string(*record.picture);
-  ContentStore::Writer writer(path, kKind, content_hash(bytes_of(inputs)));
-  writer.add(bytes_of(inputs));
-  writer.add(bytes_of(to_lines(progress)));
+  ContentStore::Writer writer(path, kKind, content_hash(text_bytes(inputs)));
+  writer.add(text_bytes(inputs));
+  writer.add(text_bytes(to_lines(progress)));
   for (const std::span<std::byte>& block : state) writer.add(std::span<const std::byte>(block));
   return writer.commit(warn);
 }

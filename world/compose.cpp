@@ -37,8 +37,8 @@ class Composer {
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
-    const std::vector<FrameCharacter> drawn = frame_characters(scene_, assets_);
-    for (const FrameCharacter& character : drawn) {
+    const std::vector<FrameCharacter> characters = frame_characters(scene_, assets_);
+    for (const FrameCharacter& character : characters) {
       job_.check_stop();
       add(character, scene_.render.lod.enabled);
     }

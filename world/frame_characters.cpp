@@ -68,20 +68,20 @@ bool moves(const TransformParams& transform) {
 }
 
 std::vector<FrameCharacter> frame_characters(const SceneDescription& scene, const Assets& assets) {
-  std::vector<FrameCharacter> drawn;
+  std::vector<FrameCharacter> found;
   for (const auto& [name, position, params] : scene.characters.items) {
-    if (params.drawn.value_or(!is_prototype(scene, name))) drawn.push_back({name, name, &params, {}});
+    if (params.drawn.value_or(!is_prototype(scene, name))) found.push_back({name, name, &params, {}});
   }
   for (size_t crowd = 0; crowd < scene.crowds.items.size(); ++crowd) {
     const auto& [name, position, params] = scene.crowds.items[crowd];
     const std::vector<CrowdMember>& members = assets.crowds[crowd];
     for (size_t i = 0; i < members.size(); ++i) {
       const std::string& prototype = params.of[members[i].prototype].name;
-      drawn.push_back(
+      found.push_back(
           {name + "." + std::to_string(i), prototype, &scene.characters.find(prototype)->value, members[i]});
     }
   }
-  return drawn;
+  return found;
 }
 
 int64_t frame_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,

@@ -93,10 +93,10 @@ Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, 
 
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
                       const std::set<std::string>& only) {
-  const std::vector<FrameCharacter> drawn = frame_characters(scene, assets);
+  const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
   FrameParts parts;
-  for (const FrameCharacter& character : drawn) {
+  for (const FrameCharacter& character : characters) {
     job.check_stop();
     if (only.empty() || only.contains(character.name)) poser.add(character, scene.render.lod.enabled, parts);
   }

@@ -43,7 +43,7 @@ std::vector<std::string> words_of(std::string_view text) {
 }
 
 template <class Number>
-Number parse(const std::string& name, std::string_view text) {
+Number parse_number_of(const std::string& name, std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
@@ -53,9 +53,10 @@ Number parse(const std::string& name, std::string_view text) {
 
 LeafRange parse_leaves(const std::string& text) {
   const size_t dash = text.find('-');
-  const auto first = parse<uint32_t>("leaf", std::string_view(text).substr(0, dash));
-  const auto last =
-      dash == std::string::npos ? first : parse<uint32_t>("leaf", std::string_view(text).substr(dash + 1));
+  const auto first = parse_number_of<uint32_t>("leaf", std::string_view(text).substr(0, dash));
+  const auto last = dash == std::string::npos
+                        ? first
+                        : parse_number_of<uint32_t>("leaf", std::string_view(text).substr(dash + 1));
   if (last < first) fail("leaf=" + text + ": the last leaf comes before the first");
   return {first, size_t(last) + 1};
 }
@@ -74,19 +75,19 @@ void set(HairArguments& arguments, const std::string& name, const std::string& v
     if (value != "full") fail("detail=" + value + ": expected detail=full");
     arguments.full_detail = true;
   } else if (name == "frame") {
-    arguments.frame = parse<int>(name, value);
+    arguments.frame = parse_number_of<int>(name, value);
   } else if (name == "leaf") {
     arguments.leaves = parse_leaves(value);
   } else if (name == "memory") {
     if (!parse_bytes(value)) fail("memory=" + value + ": expected bytes such as 512M or 4G");
     arguments.overrides.push_back({kMemory, value});
   } else if (name == "scale") {
-    arguments.pixels_per_unit = parse<float>(name, value);
+    arguments.pixels_per_unit = parse_number_of<float>(name, value);
     if (!(*arguments.pixels_per_unit > 0)) fail("scale=" + value + ": expected a positive number");
   } else if (name == "set") {
     arguments.overrides.push_back(parse_override(value));
   } else if (name == "threads") {
-    arguments.threads = parse<int>(name, value);
+    arguments.threads = parse_number_of<int>(name, value);
     if (arguments.threads < 0 || arguments.threads > 4096) fail("threads=" + value + ": expected 0 to 4096");
   } else {
     fail("unknown argument " + quote(name) + suggest(name, names));

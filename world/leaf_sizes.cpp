@@ -42,7 +42,7 @@ Extent extent_of(const GroomParams& groom) {
   return extent;
 }
 
-uint64_t bytes_of(uint64_t strands, uint64_t points) { return strands * points * kBytesPerControlPoint; }
+uint64_t strand_bytes(uint64_t strands, uint64_t points) { return strands * points * kBytesPerControlPoint; }
 
 using Extents = std::map<std::string, Extent>;  // by coat
 
@@ -60,7 +60,7 @@ std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene, const Extent
       for (const auto& coat : part.grooms.items) {
         const Extent& extent = extents.at(coat.name);
         if (!extent.strands) return {};
-        bytes += animals * bytes_of(*extent.strands, extent.points);
+        bytes += animals * strand_bytes(*extent.strands, extent.points);
       }
     }
   }
@@ -70,7 +70,7 @@ std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene, const Extent
 int strands_that_fit(uint64_t points, uint64_t chunks, uint64_t limit) {
   const uint64_t fewest = std::clamp(kFewestPoints / points, kFewestLongStrands, kFewestStrands);
   uint64_t strands = GroomParams::kMaxLeafStrands;
-  while (strands > fewest && bytes_of(strands, points) * chunks > limit) strands /= kStep;
+  while (strands > fewest && strand_bytes(strands, points) * chunks > limit) strands /= kStep;
   return static_cast<int>(strands);
 }
 

@@ -18,7 +18,7 @@ namespace {
 // Keeps the number of corners within 32 bits: the shortest corner takes two bytes.
 constexpr size_t kLongestFile = size_t(2) << 30;
 constexpr uint32_t kNoUv = std::numeric_limits<uint32_t>::max();
-constexpr int64_t kMaxElements = std::numeric_limits<int32_t>::max();
+constexpr int64_t kMaxIndex = std::numeric_limits<int32_t>::max();
 
 V3f read_position(ObjScanner& scanner) {
   V3f p(0);
@@ -101,7 +101,7 @@ bool ObjReader::resolve(int64_t index, size_t count, const char* what, uint32_t&
     scanner_.report(fmt::format("{} 0: indices count from 1", what));
     return false;
   }
-  if (index < -static_cast<int64_t>(count) || index > kMaxElements) {
+  if (index < -static_cast<int64_t>(count) || index > kMaxIndex) {
     scanner_.report(fmt::format("{} {} does not exist: only {} precede it", what, index, count));
     return false;
   }
@@ -219,7 +219,7 @@ void ObjReader::read_tag() {
     sizes.remove_prefix(std::min(slash + 1, sizes.size()));
   }
   const auto refer = [&](std::vector<Reference>& references, int64_t index) {
-    const bool fits = index >= 0 && index < kMaxElements;
+    const bool fits = index >= 0 && index < kMaxIndex;
     references.push_back({fits ? static_cast<uint32_t>(index) : kNoUv, line});
     return references.back().index;
   };

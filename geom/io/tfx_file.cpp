@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-struct Header {
+struct TfxHeader {
   float version;
   uint32_t strand_count;
   uint32_t points_per_strand;
@@ -24,10 +24,10 @@ struct Header {
   uint32_t color;      ///< 4 floats per point
   uint32_t reserved[32];
 };
-static_assert(sizeof(Header) == 160 && std::is_trivially_copyable_v<Header>);
+static_assert(sizeof(TfxHeader) == 160 && std::is_trivially_copyable_v<TfxHeader>);
 
-Header read_header(const BinaryFile& file) {
-  Header header;
+TfxHeader read_tfx_header(const BinaryFile& file) {
+  TfxHeader header;
   file.require(0, sizeof header, 1, "bytes of header");
   file.read_bytes(0, &header, sizeof header);
   if (!(header.version >= 4 && header.version < 5))
@@ -47,7 +47,7 @@ Header read_header(const BinaryFile& file) {
 
 void check_array(const BinaryFile& file, uint64_t offset, uint64_t count, int components, const char* what) {
   if (offset == 0) return;
-  if (offset < sizeof(Header)) file.fail("its " + std::string(what) + " would overlap its header");
+  if (offset < sizeof(TfxHeader)) file.fail("its " + std::string(what) + " would overlap its header");
   file.require(offset, count, 4 * static_cast<uint64_t>(components), what);
 }
 
@@ -66,7 +66,7 @@ namespace {
 class TfxFile final : public RawStrands {
  public:
   TfxFile(const std::filesystem::path& path, const StrandReadOptions& options)
-      : RawStrands(path, "tfx", options), header_(read_header(file)) {
+      : RawStrands(path, "tfx", options), header_(read_tfx_header(file)) {
     strand_count = header_.strand_count;
     const size_t points = strand_count * header_.points_per_strand;
     check_array(file, header_.points, points, 4, "points");
@@ -132,7 +132,7 @@ class TfxFile final : public RawStrands {
     }
   }
 
-  const Header header_;
+  const TfxHeader header_;
 };
 
 }  // namespace
@@ -155,7 +155,7 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
   const StrandAttribute* uv = strands.find_attribute("uv");
   const bool has_root_uv = !strands.arrays().root_uv.empty();
 
-  Header header{};
+  TfxHeader header{};
   header.version = 4.0f;
   header.strand_count = static_cast<uint32_t>(strands.strand_count());
   header.points_per_strand = per_strand;

@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "offsets";
+constexpr const char* kOffsetsKind = "offsets";
 
 /// Section 0; the leaves follow. Increment the version when the meaning of a leaf's bytes changes.
 struct Head {
@@ -19,7 +19,7 @@ struct Head {
 };
 
 /// Files of other versions have other names, so they are not taken for damaged.
-ContentHash entry_key(const ContentHash& key) {
+ContentHash offsets_key(const ContentHash& key) {
   return ContentHasher().add(key).add(Head().version).add(growth_version::kFrozen).digest();
 }
 
@@ -36,12 +36,12 @@ bool fits(const FrozenLeaf& frozen, const CoatSource& source, const FollicleTree
 }  // namespace
 
 std::filesystem::path FrozenCoat::file(const ContentStore& store, const ContentHash& key) {
-  return store.file(kKind, entry_key(key));
+  return store.file(kOffsetsKind, offsets_key(key));
 }
 
 std::optional<FrozenCoat> FrozenCoat::open(const ContentStore& store, const ContentHash& key,
                                            const CoatSource& source, const WarningSink& warn) {
-  std::optional<StoredFile> file = store.open(kKind, entry_key(key), warn);
+  std::optional<StoredFile> file = store.open(kOffsetsKind, offsets_key(key), warn);
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FrozenCoat> {
     warn(FrozenCoat::file(store, key).string() +
@@ -88,7 +88,7 @@ bool FrozenCoat::store(const ContentStore& store, const ContentHash& key,
   std::memcpy(first.data(), &head, sizeof(head));
   if (!reaches.empty())
     std::memcpy(first.data() + sizeof(head), reaches.data(), reaches.size() * sizeof(StrandReach));
-  ContentStore::Writer writer = store.writer(kKind, entry_key(key));
+  ContentStore::Writer writer = store.writer(kOffsetsKind, offsets_key(key));
   writer.add(first);
   for (const std::vector<std::byte>& leaf : leaves) writer.add(leaf);
   return writer.commit(warn);

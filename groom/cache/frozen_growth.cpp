@@ -31,7 +31,7 @@ bool all_are(const Rows& rows, size_t count, float value) {
                      [value](float v) { return v == value; });
 }
 
-void append(const StrandRow& row, size_t count, std::vector<std::byte>& bytes) {
+void append_row(const StrandRow& row, size_t count, std::vector<std::byte>& bytes) {
   const auto from = std::as_bytes(std::span(row).first(count));
   bytes.insert(bytes.end(), from.begin(), from.end());
 }
@@ -49,17 +49,17 @@ void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes) {
   }
   const auto from = std::as_bytes(std::span(&header, 1));
   bytes.insert(bytes.end(), from.begin(), from.end());
-  append(batch.clump, n, bytes);
+  append_row(batch.clump, n, bytes);
   // Operators do not move point 0.
   for (size_t p = 1; p < batch.points.size(); ++p) {
-    for (const StrandRow& axis : batch.points[p].offset) append(axis, n, bytes);
+    for (const StrandRow& axis : batch.points[p].offset) append_row(axis, n, bytes);
   }
   if (header.has_radii) {
-    for (const StrandBatch::PointRows& point : batch.points) append(point.radius, n, bytes);
+    for (const StrandBatch::PointRows& point : batch.points) append_row(point.radius, n, bytes);
   }
   if (header.color_rows) {
     for (const VectorRow& color : batch.colors) {
-      for (const StrandRow& channel : color) append(channel, n, bytes);
+      for (const StrandRow& channel : color) append_row(channel, n, bytes);
     }
   }
 }
@@ -100,11 +100,11 @@ bool read_layer(std::span<const std::byte> bytes, size_t& at, StrandBatch& batch
   return true;
 }
 
-constexpr const char* kKind = "layer";
-constexpr uint32_t kFormat = 1;
+constexpr const char* kLayerKind = "layer";
+constexpr uint32_t kLayerFormat = 1;
 
 ContentHash layer_key(const ContentHash& stage, int leaf_strands) {
-  return ContentHasher().add(in_leaves(stage, leaf_strands)).add(kFormat).digest();
+  return ContentHasher().add(in_leaves(stage, leaf_strands)).add(kLayerFormat).digest();
 }
 
 /// Properties of strands after quantisation, whose error applies to every point (groom/cache/frozen_leaf.h).
@@ -179,7 +179,7 @@ ContentHash in_leaves(const ContentHash& hash, int leaf_strands) {
 }
 
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands) {
-  return store.file(kKind, layer_key(stage, leaf_strands));
+  return store.file(kLayerKind, layer_key(stage, leaf_strands));
 }
 
 bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const {
@@ -213,7 +213,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   for (size_t leaf = 0; leaf < leaf_count; ++leaf) result.reaches.push_back(source.reach(leaf));
   std::optional<StoredFile> layer;
   for (size_t i = frozen - 1; i > 0 && !layer; --i) {
-    layer = store.open(kKind, key(i - 1), warn);
+    layer = store.open(kLayerKind, key(i - 1), warn);
     if (layer && !resumes(*layer, result.reaches)) layer.reset();
     if (layer) result.resumed = i;
   }
@@ -223,7 +223,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   for (size_t i = result.resumed; i < frozen; ++i) {
     for (StrandReach& reach : result.reaches) reach = stack.reach(reach, i, i + 1);
     if (i + 1 == frozen) break;
-    writers.emplace_back(new ContentStore::Writer(store.writer(kKind, key(i))));
+    writers.emplace_back(new ContentStore::Writer(store.writer(kLayerKind, key(i))));
     writers.back()->add(std::span<const StrandReach>(result.reaches));
   }
   for (StrandReach& reach : result.reaches) reach = quantised(reach);

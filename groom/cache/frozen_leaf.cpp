@@ -13,7 +13,7 @@ namespace {
 using Form = CodeColumn::Form;
 
 template <class T>
-const T* rows(const std::byte* at) {
+const T* stored_values(const std::byte* at) {
   return reinterpret_cast<const T*>(at);
 }
 
@@ -110,7 +110,7 @@ void FrozenLeaf::shape(const Block& block, const RootRows& frames, float scale, 
   const size_t count = batch.count, row = layout.row;
   const std::byte* next = data + layout.shapes;
   StrandRow step;
-  if (!block.plain) decode(rows<uint16_t>(data), count, step.data());
+  if (!block.plain) decode(stored_values<uint16_t>(data), count, step.data());
   VectorRow local;
   for (StrandRow& axis : local) std::fill_n(axis.data(), count, 0.0f);
   const std::array<const VectorRow*, 3> axes{&frames.tangent, &frames.bitangent, &frames.normal};
@@ -130,10 +130,10 @@ void FrozenLeaf::shape(const Block& block, const RootRows& frames, float scale, 
     }
     for (StrandRow& axis : local) {
       if (block.plain) {
-        std::copy_n(rows<float>(next), count, axis.data());
+        std::copy_n(stored_values<float>(next), count, axis.data());
         next += row * 4;
       } else {
-        advance(rows<int16_t>(next), step.data(), count, axis.data());
+        advance(stored_values<int16_t>(next), step.data(), count, axis.data());
         next += row * 2;
       }
     }

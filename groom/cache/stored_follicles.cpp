@@ -10,11 +10,13 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "follicles";
-constexpr uint32_t kFormat = 1;
+constexpr const char* kFolliclesKind = "follicles";
+constexpr uint32_t kFolliclesFormat = 1;
 
 /// Files of other formats have other names, so they are not taken for damaged.
-ContentHash entry_key(const ContentHash& key) { return ContentHasher().add(key).add(kFormat).digest(); }
+ContentHash follicles_key(const ContentHash& key) {
+  return ContentHasher().add(key).add(kFolliclesFormat).digest();
+}
 
 // Sections: leaves; ids; faces; u and v. Ids ascend within a leaf: when no difference exceeds 65535,
 // differences are stored instead, 0 for the first of a leaf. Faces take 16 bits when the skin has no more.
@@ -54,7 +56,7 @@ bool good(const RootAddress& root, uint32_t faces) {
 }  // namespace
 
 std::filesystem::path follicle_file(const ContentStore& store, const ContentHash& key) {
-  return store.file(kKind, entry_key(key));
+  return store.file(kFolliclesKind, follicles_key(key));
 }
 
 bool store_follicles(const ContentStore& store, const ContentHash& key, const FollicleTree& follicles,
@@ -79,7 +81,7 @@ bool store_follicles(const ContentStore& store, const ContentHash& key, const Fo
   const auto is_narrow = [](const std::vector<uint32_t>& values) {
     return std::all_of(values.begin(), values.end(), [](uint32_t v) { return v <= UINT16_MAX; });
   };
-  ContentStore::Writer writer = store.writer(kKind, entry_key(key));
+  ContentStore::Writer writer = store.writer(kFolliclesKind, follicles_key(key));
   writer.add(std::span<const StoredLeaf>(leaves));
   if (is_narrow(steps)) {
     add_narrow(steps, writer);
@@ -97,7 +99,7 @@ bool store_follicles(const ContentStore& store, const ContentHash& key, const Fo
 
 std::optional<FollicleTree> stored_follicles(const ContentStore& store, const ContentHash& key,
                                              const SurfaceTopology* topology, const WarningSink& warn) {
-  const std::optional<StoredFile> file = store.open(kKind, entry_key(key), warn);
+  const std::optional<StoredFile> file = store.open(kFolliclesKind, follicles_key(key), warn);
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FollicleTree> {
     warn(follicle_file(store, key).string() +

@@ -91,14 +91,16 @@ ComparedFrame FrameComparer::render(const std::vector<MaterialParams>& materials
   frame.light = light;
   scene_.lights = lights;
   assets_.materials = materials;
-  World world = compose(scene_, assets_, scene_.frames.frames.front(), job_);
+  const World world = compose(scene_, assets_, scene_.frames.frames.front(), job_);
   QuietProgress progress(job_.progress);
   std::vector<double> cpu_s;
   const auto half = [&](int64_t seed) {
-    world.scene.render.seed = seed;
+    FrameOptions options;
+    options.settings = {scene_.image, scene_.render};
+    options.settings->render.seed = seed;
     const Stopwatch wall;
     const double began = cpu_seconds();
-    FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress});
+    FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress}, options);
     frame.wall_s += wall.seconds();
     cpu_s.push_back(cpu_seconds() - began);
     frame.rays += static_cast<double>(result.statistics.rays.total());

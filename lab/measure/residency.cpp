@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/temporary_folder.h"
 #include "lab/measure/caches.h"
 #include "lab/measure/experiments.h"
 #include "lab/measure/memory_plots.h"
@@ -19,11 +20,13 @@ namespace {
 // Fractions of the peak chunk bytes; those after the third row are tried until one is refused.
 constexpr double kShares[] = {1, 0.5, 0.25, 0.1, 0.05, 0.03};
 constexpr double kSmallShares[] = {0.02, 0.01, 0.005, 0.0025, 0.001};
+constexpr double kStoredShares[] = {0.25, 0.1, 0.05};
 constexpr const char* kUnlimited = "1T";
 
 struct Budget {
-  double bytes = NAN;  // NaN: no limit
-  double share = NAN;  // of the chunks
+  double bytes = NAN;   // NaN: no limit
+  double share = NAN;   // of the chunks
+  bool stored = false;  // fur is read from render.bvh.file
 };
 
 Variant limited(const std::string& id, const std::string& title, const std::string& memory) {
@@ -66,9 +69,10 @@ class Sweep {
  public:
   Sweep(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress)
       : progress_(progress),
-        runner_(setup, progress, 2 + std::size(kShares) + 2),
+        runner_(setup, progress, 2 + std::size(kShares) + 2 + 2 + std::size(kStoredShares)),
         cache_arguments_(CacheFolders(scene, setup.folder).arguments("residency")),
-        chunk_arguments_(same_chunks(scene)) {}
+        chunk_arguments_(same_chunks(scene)),
+        store_(std::filesystem::absolute(setup.folder)) {}
 
   void run() {
     Variant warm_up = limited("warm-up", "warm-up", kUnlimited);
@@ -79,6 +83,21 @@ class Sweep {
     const Outcome& unlimited = outcomes.back();
     const double chunks = unlimited.number("memory_bytes.chunks"), fixed = fixed_bytes(unlimited);
     if (!(chunks > 0)) return;
+    run_grown(fixed, chunks);
+    run_stored(fixed, chunks);
+  }
+
+  bool done() const {
+    return progress_.cancelled() ||
+           (!outcomes.empty() && outcomes.size() <= 2 && !outcomes.back().succeeded());
+  }
+  const VariantRunner& runner() const { return runner_; }
+
+  std::vector<Outcome> outcomes;
+  std::vector<Budget> budgets;
+
+ private:
+  void run_grown(double fixed, double chunks) {
     const auto try_share = [&](double share) {
       const double bytes = fixed + share * chunks;
       add(limited(fmt::format("budget-{:g}", 100 * share), fmt::format("{:g} %", 100 * share),
@@ -99,19 +118,29 @@ class Sweep {
     }
   }
 
-  bool done() const {
-    return progress_.cancelled() ||
-           (!outcomes.empty() && outcomes.size() <= 2 && !outcomes.back().succeeded());
+  /// The same budgets with fur and skins on disk: a first run writes them, the others read them.
+  void run_stored(double fixed, double chunks) {
+    Variant first = limited("stored-first", "stored, first run", kUnlimited);
+    first.once = true;
+    add(first, {NAN, NAN, true});
+    if (done() || !outcomes.back().succeeded()) return;
+    add(limited("stored", "stored", kUnlimited), {NAN, NAN, true});
+    for (const double share : kStoredShares) {
+      if (done()) return;
+      const double bytes = fixed + share * chunks;
+      add(limited(fmt::format("stored-{:g}", 100 * share), fmt::format("stored, {:g} %", 100 * share),
+                  fmt::format("{:.0f}", bytes)),
+          {bytes, share, true});
+    }
   }
-  const VariantRunner& runner() const { return runner_; }
 
-  std::vector<Outcome> outcomes;
-  std::vector<Budget> budgets;
-
- private:
   void add(Variant variant, const Budget& budget) {
     for (const auto& more : {cache_arguments_, chunk_arguments_})
       variant.arguments.insert(variant.arguments.end(), more.begin(), more.end());
+    if (budget.stored) {
+      variant.arguments.insert(variant.arguments.end(),
+                               {"--set", "render.bvh.file=" + yaml_quoted(store_.path().string())});
+    }
     outcomes.push_back(runner_.run(variant));
     budgets.push_back(budget);
   }
@@ -119,6 +148,7 @@ class Sweep {
   Progress& progress_;
   VariantRunner runner_;
   std::vector<std::string> cache_arguments_, chunk_arguments_;
+  const TemporaryFolder store_;
 };
 
 Cell same_pixels(const VariantRunner& runner, const Outcome& unlimited, const Outcome& outcome) {
@@ -151,20 +181,39 @@ LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, c
   return plot;
 }
 
+/// The rows with or without stored fur. `table`: one row per budget after the first.
+Table rows_of(Table table, const std::vector<Budget>& budgets, bool stored) {
+  size_t row = 0;
+  std::erase_if(table.rows, [&](const auto&) { return budgets[++row].stored != stored; });
+  return table;
+}
+
+LinePlot wall_plot(const Table& grown, const Table& stored) {
+  LinePlot plot = budget_plot(grown, {"wall_s"}, "wall time", "Wall time against the budget.");
+  plot.lines.front().name = "grown";
+  plot.lines.push_back(budget_plot(stored, {"wall_s"}, "", "").lines.front());
+  plot.lines.back().name = "stored";
+  return plot;
+}
+
 Section method(const MeasureSetup& setup) {
-  return {"Method",
-          {Paragraph{fmt::format(
-               "The frame is rendered once to warm caches, then without a limit. A budget of p % means "
-               "render.memory = F + p % of C. C is the peak of the ledger's tag `chunks` in the unlimited "
-               "run; F is the sum of the peaks of film, skins and caches in that run, an upper bound of what "
-               "they need at one time. Every budget runs {}; numbers are from the run of median wall time. "
-               "Budgets decrease until one is refused (exit code 4), which is a result; the row `least`, if "
-               "present, is the budget that the refusal recommends. A run that takes longer than {:g} s is "
-               "stopped: a time-out.",
-               counted(setup.repeat, "time"), setup.time_limit_s)},
-           Paragraph{"Re-expansions are growths after an eviction. Waiting is the sum over threads of the "
-                     "time spent waiting for memory or for a chunk that another thread grows. Pixels are "
-                     "identical when every bit of every channel equals the unlimited run."}}};
+  return {
+      "Method",
+      {Paragraph{fmt::format(
+           "The frame is rendered once to warm caches, then without a limit. A budget of p % means "
+           "render.memory = F + p % of C. C is the peak of the ledger's tag `chunks` in the unlimited "
+           "run; F is the sum of the peaks of film, skins and caches in that run, an upper bound of what "
+           "they need at one time. Every budget runs {}; numbers are from the run of median wall time. "
+           "Budgets decrease until one is refused (exit code 4), which is a result; the row `least`, if "
+           "present, is the budget that the refusal recommends. A run that takes longer than {:g} s is "
+           "stopped: a time-out.",
+           counted(setup.repeat, "time"), setup.time_limit_s)},
+       Paragraph{
+           "`Stored` runs have the same budgets and `render.bvh.file`: the first writes fur, its trees and "
+           "skins to disk, the others read each chunk when a ray needs it."},
+       Paragraph{"Re-expansions are growths after an eviction. Waiting is the sum over threads of the "
+                 "time spent waiting for memory or for a chunk that another thread grows. Pixels are "
+                 "identical when every bit of every channel equals the unlimited run."}}};
 }
 
 }  // namespace
@@ -189,12 +238,17 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
   add_column(data, {"pixels", "pixels", Quantity::kRatio}, outcomes, [&](const Outcome& o) -> Cell {
     return unlimited ? same_pixels(sweep.runner(), *unlimited, o) : Text{"–"};
   });
+  for (const auto& [key, title, quantity] : {Column{"chunks_read", "chunks read", Quantity::kCount},
+                                             Column{"chunk_bytes_read", "bytes read", Quantity::kBytes}}) {
+    add_column(data, {key, title, quantity}, outcomes,
+               [key = key](const Outcome& o) -> Cell { return o.number(key); });
+  }
   add_column(data, {"message", "message", Quantity::kRatio}, outcomes,
              [](const Outcome& o) -> Cell { return Text{o.error()}; });
 
   double smallest = NAN;
   const Outcome* tightest = nullptr;
-  for (size_t i = 2; i < outcomes.size(); ++i) {
+  for (size_t i = 2; i < outcomes.size() && !sweep.budgets[i].stored; ++i) {
     if (!outcomes[i].succeeded() || !(std::isnan(smallest) || sweep.budgets[i].bytes < smallest)) continue;
     smallest = sweep.budgets[i].bytes;
     tightest = &outcomes[i];
@@ -213,21 +267,22 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
   Table shown = data;
   shown.rows.erase(shown.rows.begin(),
                    shown.rows.begin() + std::min<std::ptrdiff_t>(1, std::ssize(shown.rows)));
+  const Table grown = rows_of(shown, sweep.budgets, false);
   Section time{
       "Time and growth",
       {select(shown,
               {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
                "cpu_least_s", "cpu_most_s", "residency_wait_s", "expansions", "reexpansions", "evictions",
-               "peak_rss_bytes", "pixels"},
+               "chunks_read", "chunk_bytes_read", "peak_rss_bytes", "pixels"},
               "Cost of each budget."),
        stage_plot(
            shown, compared,
            "Wall time by stage of the run of median wall time. Whiskers: minimum and maximum of all runs."),
-       budget_plot(shown, {"wall_s"}, "wall time", "Wall time against the budget."),
-       budget_plot(shown, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
-       budget_plot(shown, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
+       wall_plot(grown, rows_of(shown, sweep.budgets, true)),
+       budget_plot(grown, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
+       budget_plot(grown, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
                    "Peaks of the resident set and of the chunks against the budget."),
-       budget_plot(shown, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}};
+       budget_plot(grown, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}};
   Table refusals =
       select(shown, {"variant", "budget_bytes", "status", "message"}, "Messages for the other budgets.");
   std::erase_if(refusals.rows, [](const auto& row) { return std::get<Text>(row.back()).text.empty(); });

@@ -81,11 +81,12 @@ void add_work(Columns& columns) {
     return drawn > 0 ? run.outcome.number("shadow_candidates_proved") / drawn : NAN;
   });
   columns.add_number("rays_proved", "rays proved", "rays_skipped_skin");
-  columns.add_number("knots", "knots", "knots");
-  columns.add("samples_per_gather_point", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
-    const double knots = run.outcome.number("knots");
-    return knots > 0 ? run.outcome.number("knot_samples") / knots : NAN;
-  });
+  columns.add_number("gather_points", "gather points", "gather_points");
+  columns.add("samples_per_gather_point", "samples per gather point", Quantity::kRatio,
+              [](const ShadingRun& run) {
+                const double points = run.outcome.number("gather_points");
+                return points > 0 ? run.outcome.number("gather_point_samples") / points : NAN;
+              });
   for (const std::string key : {"reflection_cells", "reflection_paths", "reflection_lookups"}) {
     std::string title = key;
     std::replace(title.begin(), title.end(), '_', ' ');

@@ -161,7 +161,7 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
       work.push_back(key);
   }
   work.insert(work.end(),
-              {"knots", "samples_per_gather_point", "reflection_cells", "reflection_paths",
+              {"gather_points", "samples_per_gather_point", "reflection_cells", "reflection_paths",
                "reflection_lookups", "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
   report.sections.push_back(
       {"Rays, gather points and memory", {table(is_measured, work, "Work of each run.")}});

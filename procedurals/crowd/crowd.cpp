@@ -48,7 +48,7 @@ CrowdMember vary(const CrowdParams& params, const MemberRandom& random) {
   return member;
 }
 
-Footprint scaled(const Footprint& footprint, const V3f& scale) {
+Footprint scaled_footprint(const Footprint& footprint, const V3f& scale) {
   Footprint result;
   for (const V3f& disc : footprint)
     result.emplace_back(disc.x * scale.x, disc.y * scale.z, disc.z * std::max(scale.x, scale.z));
@@ -82,7 +82,7 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
   for (size_t i = 0; i < static_cast<size_t>(params.count); ++i) {
     if (i % 4096 == 0) job.check_stop();
     members.push_back(vary(params, MemberRandom(seed, i)));
-    rules.footprints.push_back(scaled(footprints[members.back().prototype], members.back().scale));
+    rules.footprints.push_back(scaled_footprint(footprints[members.back().prototype], members.back().scale));
   }
   rules.spacing = params.spacing;
   rules.heading = params.heading.value * to_radians;
@@ -104,7 +104,8 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
 }
 
 PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint) {
-  return {scaled(footprint, member.scale), {V2f(member.position.x, member.position.z), member.heading}};
+  return {scaled_footprint(footprint, member.scale),
+          {V2f(member.position.x, member.position.z), member.heading}};
 }
 
 M44f scale_of(const CrowdMember& member) {

@@ -10,14 +10,14 @@
 namespace pelage {
 namespace {
 
-constexpr uint64_t kSample = 256;
+constexpr uint64_t kStatsSample = 256;
 
 struct Sums {
   double strands = 0, length = 0, area = 0;
 };
 
 /// Sums along the control polygon.
-void add_strand(const Strands& strands, size_t strand, Sums& sums) {
+void add_strand_sums(const Strands& strands, size_t strand, Sums& sums) {
   const uint32_t first = strands.first_point(strand), count = strands.strand_points(strand);
   sums.strands += 1;
   for (uint32_t p = first + 1; p < first + count; ++p) {
@@ -67,8 +67,8 @@ double density(const FollicleTree& follicles, const std::vector<double>& areas) 
 
 CoatStats coat_stats(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
   Sums sums;
-  visit_coat_sample(groom, rest, kSample, workers,
-                    [&](const Strands& strands, size_t s) { add_strand(strands, s, sums); });
+  visit_coat_sample(groom, rest, kStatsSample, workers,
+                    [&](const Strands& strands, size_t s) { add_strand_sums(strands, s, sums); });
   CoatStats stats;
   if (!(sums.length > 0)) return stats;
   stats.width = static_cast<float>(sums.area / sums.length);

@@ -31,7 +31,7 @@ ContentHash hash_of(const CharacterPose& pose) {
   return content_hash(std::as_bytes(std::span(words)));
 }
 
-size_t bytes_of(const PosedCages& cages) {
+size_t cage_bytes(const PosedCages& cages) {
   size_t sum = cages.transforms.capacity() * sizeof(M44f);
   for (const std::vector<V3f>& cage : cages.cages) sum += cage.capacity() * sizeof(V3f) + sizeof(cage);
   return sum;
@@ -174,7 +174,7 @@ size_t PosedCharacterSkin::temporary_bytes(const SkinPiece& piece) const {
 }
 
 size_t PosedCharacterSkin::bytes() const {
-  return sizeof(*this) + bytes_of(pose_.shutter) + bytes_of(pose_.frame_ends);
+  return sizeof(*this) + cage_bytes(pose_.shutter) + cage_bytes(pose_.frame_ends);
 }
 
 }  // namespace pelage

@@ -68,8 +68,8 @@ struct HitGeometry {
 
 /// Per-thread state of tracing.
 struct TraceThread {
-  int worker = 0;   ///< unique among the threads that trace concurrently
-  HitGeometry met;  ///< geometry of the last hit that closest() found for this thread
+  int worker = 0;            ///< unique among the threads that trace concurrently
+  HitGeometry hit_geometry;  ///< geometry of the last hit that closest() found for this thread
   TraceCounts counts;
 };
 
@@ -86,7 +86,7 @@ class Accel {
   virtual ~Accel() = default;
   /// Returns the nearest hit in (near, far), or an empty hit. Skips a semi-transparent crossing with
   /// probability 1 - opacity. The decision is a hash of `ray.random` and the crossing (see CrossingPlace), so
-  /// it is the same whenever the crossing is tested. Stores the geometry of the hit in `thread.met`.
+  /// it is the same whenever the crossing is tested. Stores the geometry of the hit in `thread.hit_geometry`.
   virtual Hit closest(const Ray& ray, TraceThread& thread) const = 0;
   /// Returns the fraction of light transmitted between near and far: the product of 1 - opacity over all
   /// crossings.

@@ -82,8 +82,8 @@ class ChunkAccel::Visits {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   /// Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
-  /// that looks for any blocker, `met` becomes the number of fine boxes that it intersects.
-  float enter(uint32_t chunk, float entry, bool resident, uint32_t& met) {
+  /// that looks for any blocker, `hit_geometry` becomes the number of fine boxes that it intersects.
+  float enter(uint32_t chunk, float entry, bool resident, uint32_t& cells_hit) {
     if (resident && boxes_.in_fur_tree(chunk)) return entry;
     const float until = far_();
     const PartBoxes* learned = boxes_.learned(chunk);
@@ -94,7 +94,7 @@ class ChunkAccel::Visits {
     if (resident || !boxes_.has_fine(chunk) || entry == kInfinity) return entry;
     const SegmentCellHits hits = intersect_segment_cell_bounds(boxes_.fine(chunk), walk_.slabs(), until, any_,
                                                                counts_.box_tests, boxes_.margin(chunk));
-    met = hits.boxes;
+    cells_hit = hits.boxes;
     return hits.entry;
   }
   bool reaches(float entry) const {
@@ -121,13 +121,13 @@ class ChunkAccel::Visits {
         continue;
       }
       const bool resident = chunks_.is_resident(chunk);
-      uint32_t met = kUnknown;
-      entry = enter(chunk, entry, resident, met);
+      uint32_t cells_hit = kUnknown;
+      entry = enter(chunk, entry, resident, hit_geometry);
       if (!reaches(entry)) continue;
       if (resident) {
         goes_on = visit_one(chunk);
       } else {
-        scratch_.waiting.push_back({entry, met, chunk});
+        scratch_.waiting.push_back({entry, hit_geometry, chunk});
       }
     }
     counts_.box_tests += walk_.box_tests();
@@ -178,7 +178,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
       [&](uint32_t chunk) {
         const bool found = chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
-          return geometry.closest(ray, rays, nearest, thread.met);
+          return geometry.closest(ray, rays, nearest, thread.hit_geometry);
         });
         if (found) nearest_chunk = chunk;
         return true;

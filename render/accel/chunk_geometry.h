@@ -40,9 +40,10 @@ struct NearestSoFar {
 class ChunkGeometry : public Resident {
  public:
   /// Finds the nearest hit on this chunk between the ray's near and far ends. If that hit precedes `nearest`,
-  /// stores the hit in `nearest` and its geometry in `met`, and returns true. Otherwise changes neither and
-  /// returns false. Pass the same `rays` for all chunks that one ray visits.
-  virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
+  /// stores the hit in `nearest` and its geometry in `hit_geometry`, and returns true. Otherwise changes
+  /// neither and returns false. Pass the same `rays` for all chunks that one ray visits.
+  virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest,
+                       HitGeometry& hit_geometry) const = 0;
   /// Passes to the sink, as the camera sees them, all primitives that may lie inside the beam at depths below
   /// `sink.far()`, and possibly others. Returns false if the chunk does not support this; then the sink got
   /// nothing.
@@ -66,7 +67,7 @@ class ChunkGeometry : public Resident {
   virtual StrandKey strand_key(uint32_t index) const = 0;
   /// Copies strand `index` to `out`, replacing the contents of `out` but reusing its memory. The copy is the
   /// curve that rays hit, at all motion keys, in world space, with its id, root and attributes. Bit-identical
-  /// to the strand that closest() stores in `met`.
+  /// to the strand that closest() stores in `hit_geometry`.
   virtual void strand(uint32_t index, Strands& out) const = 0;
   /// Returns Ray::start for a ray that leaves strand `index` at `place` (see StrandStart::place).
   virtual StrandStart start_on(uint32_t index, float place) const = 0;

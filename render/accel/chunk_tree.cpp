@@ -27,7 +27,7 @@ void ChunkWalk::open(uint32_t index, float far) {
   const ChunkTree::Node& node = tree_.nodes_[index];
   const FourBoxes* motion = tree_.motions_.empty() ? nullptr : &tree_.motions_[index];
   Four enter, leave;
-  const auto met = slabs_.intersect(node.boxes, motion, far, enter, leave);
+  const auto entered = slabs_.intersect(node.boxes, motion, far, enter, leave);
   const Four rank = order_ == Order::kFrontToBack ? enter : enter - leave;
   // Writes all four and counts the intersected ones: avoids unpredictable branches.
   Entry* entries = &stack_[count_];
@@ -36,7 +36,7 @@ void ChunkWalk::open(uint32_t index, float far) {
   for (size_t lane = 0; lane < 4; ++lane) {
     entries[count] = {enter[lane], node.children[lane]};
     ranks[count] = rank[lane];
-    count += met[lane] & 1;
+    count += entered[lane] & 1;
   }
   count_ += count;
   // The first ones go to the end.

@@ -11,13 +11,13 @@
 namespace pelage {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kChunkBins = 16;
 constexpr size_t kJob = 4096;  // max parts of a subtree that one worker builds
 // Below this depth ranges are halved by number, 16-fold per two levels: 2^31 parts end 16 levels further
 // down, and their 3 pending siblings per level fit ChunkWalk's stack.
 constexpr int kMaxSahDepth = 22;
 
-struct Bounds {
+struct PartBounds {
   V3f low{std::numeric_limits<float>::infinity()};
   V3f high{-std::numeric_limits<float>::infinity()};
 
@@ -27,7 +27,7 @@ struct Bounds {
       high[i] = std::max(high[i], p[i]);
     }
   }
-  void add(const Bounds& b) {
+  void add(const PartBounds& b) {
     for (int i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], b.low[i]);
       high[i] = std::max(high[i], b.high[i]);
@@ -40,8 +40,8 @@ struct Bounds {
 };
 
 /// A part during the build: its box over all time, and the index of its boxes per key.
-struct Part {
-  Bounds bounds;
+struct ChunkPart {
+  PartBounds bounds;
   uint32_t chunk = 0, part = 0;
 
   float centre(int axis) const { return bounds.low[axis] + bounds.high[axis]; }  // times two
@@ -49,12 +49,12 @@ struct Part {
 
 struct Range {
   size_t begin = 0, end = 0;
-  Bounds bounds;
+  PartBounds bounds;
   size_t count() const { return end - begin; }
 };
 
 struct Bin {
-  Bounds bounds;
+  PartBounds bounds;
   size_t count = 0;
 };
 
@@ -62,9 +62,9 @@ struct Bin {
 struct Binning {
   int axis = 0;
   float low = 0, scale = 0;
-  int bin(const Part& part) const {
+  int bin(const ChunkPart& part) const {
     const float x = (part.centre(axis) - low) * scale;
-    return std::clamp(static_cast<int>(x), 0, kBins - 1);
+    return std::clamp(static_cast<int>(x), 0, kChunkBins - 1);
   }
 };
 
@@ -77,7 +77,7 @@ class ChunkTreeBuilder {
   ChunkTreeBuilder(ChunkTree& tree, std::span<const ChunkBounds> chunks) : tree_(tree), chunks_(chunks) {
     for (uint32_t c = 0; c < chunks.size(); ++c) {
       for (uint32_t p = 0; p < chunks[c].part_count(); ++p) {
-        Part part;
+        ChunkPart part;
         part.chunk = c;
         part.part = p;
         for (int key = 0; key < chunks[c].keys; ++key) {
@@ -175,37 +175,37 @@ class ChunkTreeBuilder {
     int first_above = 0;
     if (depth < kMaxSahDepth && find_split(r, best, first_above)) {
       const auto middle =
-          std::partition(begin, end, [&](const Part& part) { return best.bin(part) < first_above; });
+          std::partition(begin, end, [&](const ChunkPart& part) { return best.bin(part) < first_above; });
       if (middle != begin && middle != end) return static_cast<size_t>(middle - parts_.begin());
     }
     return r.begin + r.count() / 2;
   }
 
   bool find_split(const Range& r, Binning& best, int& first_above) const {
-    Bounds centres;
+    PartBounds centres;
     for (size_t i = r.begin; i < r.end; ++i) {
       centres.add(V3f(parts_[i].centre(0), parts_[i].centre(1), parts_[i].centre(2)));
     }
     float best_cost = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const float extent = centres.high[axis] - centres.low[axis];
-      if (!(extent > 0) || !std::isfinite(kBins / extent)) continue;
-      const Binning binning{axis, centres.low[axis], kBins / extent};
-      std::array<Bin, kBins> bins;
+      if (!(extent > 0) || !std::isfinite(kChunkBins / extent)) continue;
+      const Binning binning{axis, centres.low[axis], kChunkBins / extent};
+      std::array<Bin, kChunkBins> bins;
       for (size_t i = r.begin; i < r.end; ++i) {
         Bin& bin = bins[static_cast<size_t>(binning.bin(parts_[i]))];
         bin.bounds.add(parts_[i].bounds);
         ++bin.count;
       }
-      std::array<float, kBins> above{};  // cost of bins i and higher
+      std::array<float, kChunkBins> above{};  // cost of bins i and higher
       Bin sum;
-      for (size_t i = kBins; i-- > 0;) {
+      for (size_t i = kChunkBins; i-- > 0;) {
         sum.bounds.add(bins[i].bounds);
         sum.count += bins[i].count;
         above[i] = sum.bounds.area() * static_cast<float>(sum.count);
       }
       sum = {};
-      for (size_t i = 0; i + 1 < kBins; ++i) {
+      for (size_t i = 0; i + 1 < kChunkBins; ++i) {
         sum.bounds.add(bins[i].bounds);
         sum.count += bins[i].count;
         const float cost = sum.bounds.area() * static_cast<float>(sum.count) + above[i + 1];
@@ -239,7 +239,7 @@ class ChunkTreeBuilder {
       set_sides(out.nodes[index].boxes, lane, child.bounds.low, child.bounds.high);
       return;
     }
-    Bounds open, close;
+    PartBounds open, close;
     for (size_t i = child.begin; i < child.end; ++i) {
       const ChunkBounds& bounds = chunks_[parts_[i].chunk];
       const Box3f& first = bounds.box(parts_[i].part, 0);
@@ -281,7 +281,7 @@ class ChunkTreeBuilder {
 
   ChunkTree& tree_;
   std::span<const ChunkBounds> chunks_;
-  std::vector<Part> parts_;
+  std::vector<ChunkPart> parts_;
   std::vector<Job> jobs_;
   bool moving_ = false;
 };

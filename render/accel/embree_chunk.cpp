@@ -240,7 +240,7 @@ EmbreeChunk::~EmbreeChunk() {
   rtcReleaseScene(scene_);
 }
 
-bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& met) const {
+bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& hit_geometry) const {
   RTCRayHit r;
   Ray here = ray;
   // A hit as near as the nearest so far may precede it: allow for rounding.
@@ -262,17 +262,17 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
   hit.u = r.hit.u;
   if (!strands_) {
     hit.v = r.hit.v;
-    met.triangle.assign_triangle(skin_, r.hit.primID);
+    hit_geometry.triangle.assign_triangle(skin_, r.hit.primID);
     return true;
   }
   hit.v = -r.hit.v;  // Embree's sign convention is opposite
   const uint32_t strand = strands_->locate(r.hit.primID).strand;
   hit.start = start_on(strand, static_cast<float>(hit.segment) + hit.u);
   hit.strand_index = strand;
-  strands_->copy_strand(strand, met.strand);
+  strands_->copy_strand(strand, hit_geometry.strand);
   if (v_is_no_offset()) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
-    hit.v = offset_across(met.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
+    hit.v = offset_across(hit_geometry.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
   }
   if (through_door)
     hit.v = door(strand).offset_inside(hit.v, strands_->opacity({strand, hit.segment}, hit.u));
@@ -329,7 +329,7 @@ bool EmbreeChunk::is_start(const Ray& ray, uint32_t primitive, float u, float di
 }
 
 CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
-  return {strands_->id(place.strand), part_, place.segment + joint_beside(u, options_.tessellation_rate)};
+  return {strands_->id(place.strand), part_, place.segment + joint_beside(u, kTessellationRate)};
 }
 
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {

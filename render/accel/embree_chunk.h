@@ -14,7 +14,6 @@ namespace pelage {
 
 struct EmbreeChunkOptions {
   CurveShape shape = CurveShape::kFlat;
-  int tessellation_rate = 8;  ///< number of straight pieces of a flat segment; see EmbreeCurves
   bool compact_attributes = true;
   bool screen_door = false;  ///< secondary rays see strands through a ScreenDoor
 };
@@ -33,7 +32,8 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunk(const EmbreeChunk&) = delete;
   EmbreeChunk& operator=(const EmbreeChunk&) = delete;
 
-  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest,
+               HitGeometry& hit_geometry) const override;
   /// Supports skins only.
   bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
   /// Finds nothing: segments of this chunk are not passed to sinks.

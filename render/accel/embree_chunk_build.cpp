@@ -30,7 +30,7 @@ void EmbreeChunk::add_curves() {
   }
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, strands.segments(), 0,
                              sizeof(uint32_t), strands.segment_count());
-  rtcSetGeometryTessellationRate(geometry, static_cast<float>(options_.tessellation_rate));
+  rtcSetGeometryTessellationRate(geometry, static_cast<float>(kTessellationRate));
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);

@@ -8,7 +8,6 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/heap.h"
-#include "base/memory_budget.h"
 
 namespace pelage {
 namespace {
@@ -25,34 +24,15 @@ std::string small_scenes() {
 
 }  // namespace
 
-EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger)
-    : EmbreeDevice(nullptr, memory_limit, &ledger) {}
-EmbreeDevice::EmbreeDevice() : EmbreeDevice(small_scenes().c_str(), 0, nullptr) {}
-
-EmbreeDevice::EmbreeDevice(const char* configuration, uint64_t memory_limit, MemoryLedger* ledger)
-    : ledger_(ledger), memory_limit_(memory_limit) {
-  device_ = rtcNewDevice(configuration);
+EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(small_scenes().c_str())) {
   if (!device_) {
     throw Error(ErrorKind::kFailed,
                 fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
   }
-  rtcSetDeviceErrorFunction(device_, on_error, this);
-  rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);
+  rtcSetDeviceMemoryMonitorFunction(device_, EmbreeMeter::on_memory, nullptr);
 }
 
 EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
-
-void EmbreeDevice::rethrow() const {
-  std::lock_guard lock(mutex_);
-  if (code_ == RTC_ERROR_NONE) return;
-  if (over_limit_) {
-    throw Error(ErrorKind::kMemory, fmt::format("the tree over the geometry does not fit render.memory ({})",
-                                                memory_text(static_cast<int64_t>(memory_limit_))));
-  }
-  if (code_ == RTC_ERROR_OUT_OF_MEMORY)
-    throw Error(ErrorKind::kMemory, "out of memory while building the tree");
-  throw Error(ErrorKind::kFailed, "Embree: " + text_);
-}
 
 void EmbreeDevice::rethrow_of_thread() const {
   const RTCError code = rtcGetDeviceError(device_);
@@ -70,28 +50,9 @@ std::unique_lock<std::mutex> EmbreeDevice::one_at_a_time() const {
 #endif
 }
 
-void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcept {
-  auto& device = *static_cast<EmbreeDevice*>(self);
-  std::lock_guard lock(device.mutex_);
-  if (device.code_ != RTC_ERROR_NONE) return;
-  device.code_ = code;
-  try {
-    device.text_ = text ? text : "";
-  } catch (const std::bad_alloc&) {
-    // The error code alone is still reported.
-  }
-}
-
-bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool post) noexcept {
-  auto& device = *static_cast<EmbreeDevice*>(self);
+bool EmbreeMeter::on_memory(void*, ssize_t bytes, bool) noexcept {
   if (meter_of_thread) meter_of_thread->count(bytes);
-  if (!device.ledger_) return true;
-  device.ledger_->charge(MemoryTag::kChunks, bytes);
-  if (bytes <= 0 || device.memory_limit_ == 0) return true;
-  if (device.ledger_->budgeted() <= static_cast<int64_t>(device.memory_limit_)) return true;
-  device.over_limit_ = true;
-  if (!post) device.ledger_->charge(MemoryTag::kChunks, -bytes);  // refused before it was allocated
-  return false;
+  return true;
 }
 
 EmbreeMeter::EmbreeMeter() {

@@ -146,7 +146,8 @@ FurStart FurChunk::start_of(const Ray& ray) const {
   return {ray.start.first_segment, ray.start.segment_count, ray.start.place};
 }
 
-bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const {
+bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest,
+                       HitGeometry& hit_geometry) const {
   Ray here = ray;
   // A hit as near as the nearest so far may precede it.
   if (nearest.hit)
@@ -161,7 +162,7 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   FurFilter& filter = through_door ? static_cast<FurFilter&>(door) : stopping;
   const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
   if (!found || !keep(found, through_door, nearest)) return false;
-  strand(nearest.hit.strand_index, met.strand);
+  strand(nearest.hit.strand_index, hit_geometry.strand);
   return true;
 }
 
@@ -273,11 +274,11 @@ void FurChunk::strand(uint32_t index, Strands& out) const {
   const size_t key_floats = size_t(4) * (3 * segments + 1);
   // The segments of a strand are in different leaves.
   for (uint32_t s = 0; s < segments; ++s) fetch_ahead(places_.find(tree, first + s));
-  uint32_t not_drawn = 0;  // of the first segments
+  uint32_t not_visible = 0;  // of the first segments
   for (uint32_t s = 0; s < segments; ++s) {
     const FurSegmentLookup::Place place = places_.find(tree, first + s);
-    if (!place.block && not_drawn == s) {
-      ++not_drawn;
+    if (!place.block && not_visible == s) {
+      ++not_visible;
       continue;
     }
     for (int key = 0; key < tree.motion_keys; ++key) {
@@ -298,11 +299,11 @@ void FurChunk::strand(uint32_t index, Strands& out) const {
     }
   }
   const std::array<float, 4> nowhere{tree.anchor.x, tree.anchor.y, tree.anchor.z, 0};
-  for (int key = 0; not_drawn > 0 && key < tree.motion_keys; ++key) {
+  for (int key = 0; not_visible > 0 && key < tree.motion_keys; ++key) {
     float* points = &arrays.points[static_cast<size_t>(key) * key_floats];
-    const float* drawn = not_drawn < segments ? points + size_t(12) * not_drawn : nowhere.data();
-    const size_t count = not_drawn < segments ? size_t(3) * not_drawn : size_t(3) * segments + 1;
-    for (size_t i = 0; i < count; ++i) std::copy_n(drawn, 4, points + 4 * i);
+    const float* visible = not_visible < segments ? points + size_t(12) * not_visible : nowhere.data();
+    const size_t count = not_visible < segments ? size_t(3) * not_visible : size_t(3) * segments + 1;
+    for (size_t i = 0; i < count; ++i) std::copy_n(visible, 4, points + 4 * i);
   }
   out = Strands(std::move(arrays));
 }

@@ -52,7 +52,8 @@ class FurChunk final : public ChunkGeometry {
     number_ = number;
   }
 
-  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest,
+               HitGeometry& hit_geometry) const override;
   bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
   void closest_at(std::span<const Ray* const> rays, uint32_t segment, Hit* hits) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;

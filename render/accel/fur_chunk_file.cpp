@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-const std::string kKind = "fur-chunks";
+const std::string kChunksKind = "fur-chunks";
 constexpr size_t kOverhead = size_t(16) << 10;  // small allocations of a chunk, generously
 constexpr size_t kUnmet = 4096;                 // segments of a chunk in excess of full blocks
 constexpr size_t kMaxHead = size_t(1) << 20;
@@ -56,7 +56,7 @@ bool is_in_proportion(size_t segments, size_t leaf_bytes, int motion_keys) {
 }  // namespace
 
 FurChunkFile::Writer::Writer(const ContentStore& store, const ContentHash& key)
-    : entry_(store.writer(kKind, entry_key(key))) {}
+    : entry_(store.writer(kChunksKind, entry_key(key))) {}
 
 void FurChunkFile::Writer::add(const FurChunk* chunk) {
   if (!chunk || !is_in_proportion(chunk->segment_count(), chunk->tree().leaf_bytes(),
@@ -93,7 +93,7 @@ bool FurChunkFile::Writer::commit(const WarningSink& warn) { return entry_.commi
 
 std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store, const ContentHash& key,
                                                        size_t chunk_count, const WarningSink& warn) {
-  std::optional<StoredSections> file = store.open_sections(kKind, entry_key(key), warn);
+  std::optional<StoredSections> file = store.open_sections(kChunksKind, entry_key(key), warn);
   if (!file) return nullptr;
   if (file->section_count() != kSections * chunk_count) {
     warn(file->path().string() + ": damaged fur chunks; they are made again");
@@ -103,10 +103,7 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
 }
 
 FurChunkFile::FurChunkFile(StoredSections file)
-    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {
-  // The regions of a frame are processes that read the same chunks.
-  file_.keep_cached();
-}
+    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {}
 
 size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);

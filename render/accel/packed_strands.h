@@ -93,8 +93,6 @@ class PackedStrands {
   size_t vertex_count() const { return vertex_count_; }
   /// Index of the first control point of each segment.
   const uint32_t* segments() const { return segments_; }
-  /// Number of control points of one segment: 2 for linear strands, otherwise 4.
-  uint32_t segment_vertices() const { return extra_ + 1; }
 
   struct Place {
     uint32_t strand = 0;

@@ -36,9 +36,10 @@ class PartBoxes {
     float nearest = std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < boxes_.size(); ++i) {
       Four enter, leave;
-      const auto met = ray.intersect(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter, leave);
+      const auto entered =
+          ray.intersect(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter, leave);
       for (size_t lane = 0; lane < 4; ++lane) {
-        if (met[lane]) nearest = std::min(nearest, enter[lane]);
+        if (entered[lane]) nearest = std::min(nearest, enter[lane]);
       }
     }
     return nearest;

@@ -24,11 +24,11 @@ SegmentCellHits intersect_segment_cell_bounds(const SegmentCellBounds& boxes, co
     if (top.distance > far) continue;
     const auto groups = boxes.level(top.level);
     Four enter, leave;
-    const auto met = slabs.intersect(groups[top.group], far, enter, leave);
+    const auto entered = slabs.intersect(groups[top.group], far, enter, leave);
     tests += 4;
     const size_t first = waiting;
     for (uint32_t lane = 0; lane < 4; ++lane) {
-      if (!met[lane]) continue;
+      if (!entered[lane]) continue;
       if (top.level == 0) {
         hits.entry = std::min(hits.entry, enter[lane]);
         ++hits.boxes;

@@ -9,7 +9,7 @@
 namespace pelage {
 
 /// A fibre with a medulla, hit at one h: the lobes of unscattered light, and one lobe of scattered light.
-/// `Scattered` is the model of the lobe of scattered light. It must have density(FibreAngles) and draw(u),
+/// `Scattered` is the model of the lobe of scattered light. It must have density(FibreAngles) and sample(u),
 /// which returns SampledAngles.
 ///
 /// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour.
@@ -36,10 +36,10 @@ class MedullaBsdf {
   std::optional<FibreSample> sample(const V3f& u) const {
     FibreSample s;
     if (u.z < choice_) {
-      const auto [sine, phi] = scattered_.draw({u.x, u.y, std::min(u.z / choice_, kBelowOne)});
+      const auto [sine, phi] = scattered_.sample({u.x, u.y, std::min(u.z / choice_, kBelowOne)});
       s.wi = straight_.frame().direction(sine, std::sqrt(std::max(0.0f, (1 - sine) * (1 + sine))), phi);
     } else {
-      s.wi = straight_.draw({u.x, u.y, std::min((u.z - choice_) / (1 - choice_), kBelowOne)});
+      s.wi = straight_.sample_direction({u.x, u.y, std::min((u.z - choice_) / (1 - choice_), kBelowOne)});
     }
     s.value = eval(s.wi);
     if (!(s.value.pdf > 0)) return std::nullopt;

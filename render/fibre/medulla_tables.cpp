@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr const char* kKind = "medulla";
+constexpr const char* kTablesKind = "medulla";
 /// The last node of the inclination: hardly any light enters a fibre at larger angles.
 constexpr float kSteepest = 1.5f;
 
@@ -35,12 +35,12 @@ ContentHash key_of(const YanOptics& o, int paths) {
 /// Converts counts to a cumulative distribution, with a small constant so that no density is zero.
 template <size_t N>
 void accumulate(std::array<float, N>& cells) {
-  constexpr float kEverywhere = 0.5f;
+  constexpr float added = 0.5f;
   double sum = 0;
-  for (size_t i = 0; i + 1 < N; ++i) sum += cells[i] + kEverywhere;
+  for (size_t i = 0; i + 1 < N; ++i) sum += cells[i] + added;
   double below = 0;
   for (size_t i = 0; i + 1 < N; ++i) {
-    const double count = cells[i] + kEverywhere;
+    const double count = cells[i] + added;
     cells[i] = static_cast<float>(below / sum);
     below += count;
   }
@@ -114,10 +114,10 @@ std::shared_ptr<const MedullaTables> MedullaTables::find_or_make(const YanOptics
   const ContentHash key = key_of(optics, paths);
   const size_t bytes = static_cast<size_t>(kInclinations) * kOffsets * sizeof(Node);
   const auto stored = [&](const WarningSink& tell) -> std::shared_ptr<const MedullaTables> {
-    const std::optional<StoredFile> file = store.open(kKind, key, tell);
+    const std::optional<StoredFile> file = store.open(kTablesKind, key, tell);
     if (!file) return nullptr;
     if (file->section_count() != 1 || file->section(0).size() != bytes) {
-      tell(store.file(kKind, key).string() + ": not medulla tables; they are made again");
+      tell(store.file(kTablesKind, key).string() + ": not medulla tables; they are made again");
       return nullptr;
     }
     auto tables = std::make_shared<MedullaTables>();
@@ -126,11 +126,11 @@ std::shared_ptr<const MedullaTables> MedullaTables::find_or_make(const YanOptics
     return tables;
   };
   if (auto found = stored(warn)) return found;
-  const ContentStore::Lock lock = store.lock(kKind, key, [&] { return job.progress.cancelled(); });
+  const ContentStore::Lock lock = store.lock(kTablesKind, key, [&] { return job.progress.cancelled(); });
   if (auto found = stored([](const std::string&) {})) return found;  // made while we waited
   std::shared_ptr<const MedullaTables> made = make(optics, job, paths);
   const std::span<const std::byte> section = std::as_bytes(made->nodes());
-  store.store(kKind, key, std::span(&section, 1), warn);
+  store.store(kTablesKind, key, std::span(&section, 1), warn);
   return made;
 }
 
@@ -161,7 +161,7 @@ float TabulatedScatter::density(const FibreAngles& a) const {
   return sum;
 }
 
-SampledAngles TabulatedScatter::draw(const V3f& u) const {
+SampledAngles TabulatedScatter::sample(const V3f& u) const {
   int k = 0;
   float rest = u.z;
   while (k < 3 && rest >= weights_[k]) rest -= weights_[k++];

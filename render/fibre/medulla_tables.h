@@ -62,7 +62,7 @@ class TabulatedScatter {
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);
 
   float density(const FibreAngles& a) const;
-  SampledAngles draw(const V3f& u) const;
+  SampledAngles sample(const V3f& u) const;
   PathLengths lengths() const;
 
  private:

@@ -81,7 +81,7 @@ class SeparableBsdf {
   /// Samples a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
   /// peak. u.z selects the lobe; rescaled to [0, 1) within its lobe, it also selects the angle about the
   /// peak.
-  V3f draw(const V3f& u) const {
+  V3f sample_direction(const V3f& u) const {
     int p = 0;
     float rest = u.z;
     while (p < kFibreLobes - 1 && rest >= choice_[p]) rest -= choice_[p++];
@@ -92,7 +92,7 @@ class SeparableBsdf {
   }
   std::optional<FibreSample> sample(const V3f& u) const {
     FibreSample s;
-    s.wi = draw(u);
+    s.wi = sample_direction(u);
     s.value = eval(s.wi);
     if (!(s.value.pdf > 0)) return std::nullopt;
     return s;

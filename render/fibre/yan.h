@@ -23,7 +23,7 @@ class WignerScatter {
   float density(const FibreAngles& a) const {
     return a.cos_theta / (kPi * kPi) * (1 + balance_ * std::cos(a.phi));
   }
-  SampledAngles draw(const V3f& u) const {
+  SampledAngles sample(const V3f& u) const {
     const float phi = 2 * kPi * u.x;
     const bool turned = u.z < -balance_ * std::cos(phi);
     return {WignerTable::instance().sample(u.y), turned ? phi + kPi : phi};

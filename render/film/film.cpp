@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <type_traits>
 
 #include "base/check.h"
@@ -56,6 +57,8 @@ int64_t Film::bytes_needed(int width, int height, const FilmLayers& layers) {
 
 bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer) {
   PELAGE_CHECK(by_layer.size() == layers_.size());
+  const size_t pixel = index(x, y);
+  ++counts_[pixel];
   if (!is_finite(sample.radiance) || !std::isfinite(sample.alpha) || !all_finite(by_layer)) return false;
   const float light[] = {sample.radiance.x, sample.radiance.y, sample.radiance.z, sample.alpha};
   const FilmSums::Footprint footprint = sums_.footprint(sample.offset);
@@ -64,12 +67,26 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
     sums_.add(x, y, footprint, light, layers);
   }
   sums_.add_weight(x, y, footprint);
-  const size_t pixel = index(x, y);
-  ++counts_[pixel];
   if (!moments_.empty()) moments_[pixel].add(luminance(sample.radiance));
 
   surfaces_[pixel].offer(sample.surface, sample.inside_pixel());
   return true;
+}
+
+uint32_t Film::min_samples(const PixelBox& box) const {
+  uint32_t min = std::numeric_limits<uint32_t>::max();
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) min = std::min(min, samples(x, y));
+  }
+  return min;
+}
+
+double Film::sample_sum(const PixelBox& box) const {
+  double sum = 0;
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) sum += samples(x, y);
+  }
+  return sum;
 }
 
 std::vector<std::span<std::byte>> Film::state() {

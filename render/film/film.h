@@ -52,11 +52,14 @@ class Film {
   const FilmLayers& layers() const { return layers_; }
 
   /// Adds a sample of pixel (x, y). `by_layer`: the sample's radiance divided among layers(), one entry per
-  /// layer. Returns false and leaves the film unchanged when the radiance, alpha or an entry is not finite.
+  /// layer. When the radiance, alpha or an entry is not finite, returns false and only counts the sample.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
 
-  /// Returns the count of samples of the pixel.
+  /// Returns how many samples of the pixel add() was given.
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
+  // Min and sum of samples() over the pixels of a box.
+  uint32_t min_samples(const PixelBox& box) const;
+  double sample_sum(const PixelBox& box) const;
   // Weighted means of the samples that count for a pixel; 0 if there are none.
   Rgb radiance(int x, int y) const;
   float alpha(int x, int y) const;

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted)
+CameraSamples::CameraSamples(const FrameScene& scene, const Accel& accel, bool splatted)
     : scene_(scene),
       opaque_(accel.opaque()),
       widens_(scene.render.min_width() > 0),
@@ -17,7 +17,7 @@ SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
           sample};
 }
 
-CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& stream) const {
+CameraSample CameraSamples::sample(int x, int y, uint32_t sample, SampleStream& stream) const {
   CameraSample result;
   stream.seek(static_cast<uint32_t>(SampleDimension::kFilm));
   result.offset = place_.offset(stream.next2d());

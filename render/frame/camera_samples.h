@@ -6,13 +6,12 @@
 #include "render/accel/accel.h"
 #include "render/film/pixel_filter.h"
 #include "render/sampling/sample_stream.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
-/// Index of the draw from SampleStream for each use of random numbers in a sample. The indices do not depend
-/// on the course of the path. Each vertex of the path has several draws; the draws of the first vertex start
-/// at kFirstVertex.
+/// Dimension of SampleStream for each use of random numbers in a sample. Dimensions do not depend on the
+/// course of the path. Each vertex of the path has several; those of the first vertex start at kFirstVertex.
 enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
 struct CameraSample {
@@ -26,15 +25,15 @@ class CameraSamples {
  public:
   /// `scene` must outlive this object. With `splatted`, samples are distributed uniformly over their pixel;
   /// otherwise, their density is proportional to the pixel filter.
-  CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
+  CameraSamples(const FrameScene& scene, const Accel& accel, bool splatted);
 
   /// Returns the random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
   /// Returns the camera ray of a sample. `stream`: the result of stream() for the same sample.
-  CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
+  CameraSample sample(int x, int y, uint32_t sample, SampleStream& stream) const;
 
  private:
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const bool opaque_, widens_;
   const FilterSampler place_;
 };

@@ -5,97 +5,95 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/job.h"
 #include "base/stopwatch.h"
 #include "render/film/film.h"
+#include "render/frame/frame_result.h"
 #include "render/frame/frame_saver.h"
-#include "render/frame/frame_statistics.h"
 #include "render/frame/frame_window.h"
-#include "render/frame/sample_integrator.h"
-#include "render/frame/tile_order.h"
+#include "render/frame/scratch_pool.h"
+#include "render/frame/tile_integrator.h"
 #include "render/frame/tile_pass.h"
 
 namespace pelage {
 
-/// Traces samples and adds them to a film, in passes over all tiles.
+/// The loop over the tiles of a frame, for all integrators. Threads take tiles, and the integrator adds their
+/// samples to the film. The film counts the samples of each pixel, so it is the whole state of the loop.
+/// SamplePasses decides which passes are made.
+///
+/// One thread adds all samples of a tile in a pass, and always in the same order. So the film depends neither
+/// on threads nor on passes.
 class FrameLoop {
  public:
-  /// Returns how many samples a pixel should have. `given`: how many it has now. The thread that traces the
-  /// pixel calls this again when the pixel has as many samples as the last result. The pixel is finished when
-  /// the result is not greater than `given`.
-  using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
-
   /// `film`: stores the pixels window.film. `clock`: deadlines are in seconds on this clock. `saver`: stores
   /// the state of the frame during passes; may be null. The constructor restores the state that the saver
-  /// has.
-  FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const FrameWindow& window,
+  /// has. Keeps references to its arguments.
+  FrameLoop(const TileIntegrator& integrator, const Job& job, Film& film, const FrameWindow& window,
             const Stopwatch& clock, FrameSaver* saver = nullptr);
 
-  int width() const { return film_.width(); }
-  int height() const { return film_.height(); }
-  /// Returns the count of pixels of the film, including those that are not traced.
-  size_t pixel_count() const { return sample_counts_.size(); }
-  /// Returns the count of pixels that are traced.
-  size_t traced_count() const {
-    return static_cast<size_t>(traced_.width()) * static_cast<size_t>(traced_.height());
-  }
   const Film& film() const { return film_; }
-  /// Returns the count of samples traced for a pixel of the film so far.
-  uint32_t sample_count(size_t pixel) const { return sample_counts_[pixel]; }
-  // Min and mean of sample_count() over the traced pixels.
-  uint32_t min_samples() const;
-  double mean_samples() const;
+  /// Returns the pixels of the film that are traced.
+  const PixelBox& traced() const { return traced_; }
+  /// Returns their count.
+  double traced_count() const { return 1.0 * traced_.width() * traced_.height(); }
+  // Min and mean of the sample counts over the traced pixels.
+  uint32_t min_samples() const { return film_.min_samples(traced_); }
+  double mean_samples() const { return film_.sample_sum(traced_) / traced_count(); }
+  /// Returns whether the order of samples links the pixels of a tile: they share light, or splatted samples
+  /// enter the same sum. Then all pixels of a tile must get the same goals, and a region of a pass consists
+  /// of whole tiles.
+  bool links_pixels() const { return integrator_.shares_light() || film_.layers().splat.has_value(); }
+  /// Returns the least count of samples per pixel, from `wanted` up to `max`, where a pass may end that
+  /// begins with `given` samples.
+  uint32_t pass_end(uint32_t given, uint32_t wanted, uint32_t max) const;
 
-  /// Traces every pixel to its goal. Tiles follow the order of a Hilbert curve. With `scattered`, consecutive
-  /// tiles are far apart instead, so that threads that start together do not wait for the same fur. One
-  /// thread adds all samples of a pixel, in order. Starts no more tiles once the clock passes `deadline_s`.
-  PassEnd pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
+  /// A pass over the tiles.
+  struct Pass {
+    SampleGoal goal;
+    std::optional<PixelBox> region = {};  ///< the only pixels to trace, see links_pixels(); empty: all
+    /// Tiles follow the order of a Hilbert curve. With `scattered`, consecutive tiles are far apart instead,
+    /// so that threads that start together do not wait for the same fur.
+    bool scattered = false;
+    double deadline_s = std::numeric_limits<double>::infinity();  ///< no tile starts later
+    std::function<bool()> interrupts = {};  ///< whether the pass should end early; from any thread
+  };
+  PassEnd pass(const Pass& pass);
   /// Returns the state of the frame, for the saver. Call between passes.
-  FrameState state();
+  FrameState state() { return film_.state(); }
 
   /// Returns the mean time per sample, in seconds of one thread, over all samples so far of the tile that
   /// contains the pixel; 0 if it has none.
   double cost(size_t pixel) const;
-  /// Returns the seconds on the clock when the first tile of the first pass was finished.
-  double first_tile_s() const { return first_tile_s_; }
   /// Returns the costs of the tiles so far, summed over all threads.
   TileCosts costs() const;
-  /// Adds the counts of rays, of accelerator work and of rejected samples.
+  /// Adds the counts of all threads.
   void add_to(FrameStatistics& statistics) const;
-  /// Returns the fraction of the indirect light that render.clamp_indirect removed.
-  double clamped_fraction() const;
+  /// Stores figures about the samples of the film, and adds the counts of all threads.
+  void report(FrameResult& result) const;
 
  private:
   struct TileCost {
     double seconds = 0, samples = 0;
   };
-  /// Returns false when cancelled before the end of the tile.
-  bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
-  /// Adds samples to a pixel, at most `at_once`, until it has as many as `goal` says. Returns false when
-  /// cancelled. `given`: count of its samples.
-  bool trace_pixel(int x, int y, const Goal& goal, uint32_t at_once, uint32_t& given, SampleScratch& scratch);
-  /// Returns the min sample count over the pixels of a tile.
-  uint32_t min_samples(const Tile& tile) const;
-  size_t tile_of(int x, int y) const;
-  size_t pixel_of(int x, int y) const {
-    return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
-  }
+  /// Returns the tiles of a pass, in the order of a Hilbert curve.
+  std::vector<Tile> tiles(const std::optional<PixelBox>& region) const;
+  /// Returns false if the tile is not finished.
+  bool trace(const TileTask& task, int worker);
+  void advance(const Tile& tile, uint64_t samples);
+  size_t tile_index(int x, int y) const;
 
-  const SampleIntegrator& integrator_;
-  Job job_;
+  const TileIntegrator& integrator_;
+  const Job job_;
   Film& film_;
   const int left_, top_;   // pixel (0, 0) of the film, in the picture
   const PixelBox traced_;  // in pixels of the film, like all pixels of this class
   const Stopwatch& clock_;
-  FrameSaver* saver_;
-  std::vector<Tile> tiles_;
-  std::vector<TileCost> costs_;                          // by tile, row by row
-  std::vector<uint32_t> sample_counts_;                  // by pixel
-  std::vector<std::unique_ptr<SampleScratch>> scratch_;  // one per worker
-  std::atomic<int64_t> rejected_{0};
+  FrameSaver* const saver_;
+  std::vector<TileCost> tile_costs_;  // by tile of the film, row by row
+  ScratchPool scratch_;
   std::atomic<double> first_tile_s_{0};
 };
 

@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// Memory that holds everything about a frame that has been sampled in part: its film and its sample counts,
-/// in blocks. The blocks of all renders of the same frame have the same sizes. A render whose blocks get the
-/// bytes of another render continues where the other one was, and ends with the same film.
+/// Memory that holds everything about a frame that has been sampled in part: its film, in blocks. The blocks
+/// of all renders of the same frame have the same sizes. A render whose blocks get the bytes of another
+/// render continues where the other one was, and ends with the same film.
 using FrameState = std::vector<std::span<std::byte>>;
 
 /// Stores the state of a frame from time to time while it is rendered, so that a later render can continue.

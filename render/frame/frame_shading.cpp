@@ -104,7 +104,7 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const SkinShadows* balls)
+FrameShading::FrameShading(const FrameScene& scene, const SkinShadows* balls)
     : scene_(scene), balls_(balls), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
@@ -219,21 +219,23 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
           GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
 }
 
-ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
-  ScatterPoint point =
-      hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand) : skin_point(ray, hit, met.triangle);
-  if (balls_) point.set_shadow(balls_->below(hit, met, ray.time));
+ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit,
+                                         const HitGeometry& hit_geometry) const {
+  ScatterPoint point = hit.kind == HitKind::kStrand ? fibre_point(ray, hit, hit_geometry.strand)
+                                                    : skin_point(ray, hit, hit_geometry.triangle);
+  if (balls_) point.set_shadow(balls_->below(hit, hit_geometry, ray.time));
   return point;
 }
 
-Rgb FrameShading::color(const Hit& hit, const HitGeometry& met) const {
+Rgb FrameShading::color(const Hit& hit, const HitGeometry& hit_geometry) const {
   if (hit.kind == HitKind::kStrand) {
     const FurPart& part = scene_.fur[hit.part];
-    const Rgb color = fibre_color(*fibres_[part.material], met.strand, hit, along_strand(met.strand, hit));
+    const Rgb color = fibre_color(*fibres_[part.material], hit_geometry.strand, hit,
+                                  along_strand(hit_geometry.strand, hit));
     return tinted(color, part.tint);
   }
   const SkinPart& part = scene_.skins[hit.part];
-  return tinted(skin_color(part, *skins_[part.material], hit, met.triangle), part.tint);
+  return tinted(skin_color(part, *skins_[part.material], hit, hit_geometry.triangle), part.tint);
 }
 
 /// Motion in pixels from the frame to the next one for a point seen at `time` of the shutter. The point
@@ -254,22 +256,24 @@ float FrameShading::depth(const Ray& ray, const Hit& hit) const {
   return (position - scene_.camera.position(ray.time)).dot(scene_.camera.axis(ray.time));
 }
 
-VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit,
+                                             const HitGeometry& hit_geometry) const {
   VisibleSurface surface;
   const V3f position = ray.origin + hit.distance * ray.direction;
   surface.depth = depth(ray, hit);
   if (hit.kind == HitKind::kSkin) {
     const SkinPart& part = scene_.skins[hit.part];
-    const SkinPoint point = pelage::skin_point(met.triangle, ray, hit);
+    const SkinPoint point = pelage::skin_point(hit_geometry.triangle, ray, hit);
     surface.normal = point.normal;
     if (part.rest) {
-      const V2f place = skin_parameters(met.triangle, hit);
-      surface.root_uv = part.rest->topology().texture_coordinates(met.triangle.faces[0], place.x, place.y);
+      const V2f place = skin_parameters(hit_geometry.triangle, hit);
+      surface.root_uv =
+          part.rest->topology().texture_coordinates(hit_geometry.triangle.faces[0], place.x, place.y);
     }
     surface.forward = motion_in_image(position, point.shutter_motion, ray.time);
     return surface;
   }
-  const Strands& strand = met.strand;
+  const Strands& strand = hit_geometry.strand;
   surface.tangent = strand_point(strand, 0, hit.segment, hit.u, ray.time).tangent;
   // The normal of a circular fibre at h, from the frame of the fibre and the ray.
   const V3f across = surface.tangent.cross(-ray.direction);

@@ -9,28 +9,28 @@
 #include "render/fibre/fibre_material.h"
 #include "render/film/film.h"
 #include "render/light/scatter_point.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
 class SkinShadows;
 
-/// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members, `met` is
-/// the geometry of the hit, which the accelerator has copied. Thread safety: const members may be called from
-/// any thread.
+/// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members,
+/// `hit_geometry` is the geometry of the hit, which the accelerator has copied. Thread safety: const members
+/// may be called from any thread.
 class FrameShading {
  public:
   /// `balls`: inside the skins, for the points of scatter_point(); null: none. Must outlive this object.
-  explicit FrameShading(const RenderScene& scene, const SkinShadows* balls = nullptr);
+  explicit FrameShading(const FrameScene& scene, const SkinShadows* balls = nullptr);
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
-  ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
   /// Returns the colour of the material at a hit.
-  Rgb color(const Hit& hit, const HitGeometry& met) const;
+  Rgb color(const Hit& hit, const HitGeometry& hit_geometry) const;
   /// Returns VisibleSurface::depth of a hit of a camera ray.
   float depth(const Ray& ray, const Hit& hit) const;
   /// Returns the film data of a hit of a camera ray.
-  VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
 
  private:
   struct Fibre {
@@ -54,7 +54,7 @@ class FrameShading {
   Rgb skin_color(const SkinPart& part, const Skin& skin, const Hit& hit, const SkinMesh& triangle) const;
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const SkinShadows* const balls_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material

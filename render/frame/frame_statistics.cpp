@@ -36,7 +36,7 @@ FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
   occlusion += other.occlusion;
   cpu_s += other.cpu_s;
   samples_rejected += other.samples_rejected;
-  knots += other.knots;
+  gather_points += other.gather_points;
   reflections += other.reflections;
   for (const auto& [stage, seconds] : other.stages_s) stages_s[stage] += seconds;
   return *this;

@@ -55,10 +55,10 @@ struct ReflectionStatistics {
 /// per pass over that tile. In a long frame, the first pass has one sample per pixel.
 struct GatherPointStatistics {
   /// `samples`: camera samples that hit a strand or skin.
-  int64_t gather_points = 0, samples = 0;
+  int64_t count = 0, samples = 0;
 
   GatherPointStatistics& operator+=(const GatherPointStatistics& other) {
-    gather_points += other.gather_points;
+    count += other.count;
     samples += other.samples;
     return *this;
   }
@@ -90,7 +90,7 @@ struct FrameStatistics {
   RenderSeconds cpu_s;                     ///< CPU seconds of tiles; `residency` counts growth
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
   std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage
-  GatherPointStatistics knots;
+  GatherPointStatistics gather_points;
   ReflectionStatistics reflections;
 
   FrameStatistics& operator+=(const FrameStatistics& other);

@@ -22,14 +22,11 @@ struct PassState {
 ///
 /// A watch may choose a region. Its pixels get all their samples before the other pixels get more; with
 /// adaptive sampling or a time limit, each pass renders the region first. The film is the same in the end.
-/// With the integrator `path` and splatted samples, the region has no effect.
+/// With the integrator `gather` or splatted samples, a region consists of whole tiles, because the order of
+/// their samples matters.
 ///
-/// With a watch and the integrator `path`, the passes are shorter, and the first sample of every pixel is
-/// taken on grids of 8, 4 and 2 pixels first. The film is the same in the end. With splatted samples, a watch
-/// changes no pass, because the order of the samples decides how their sums are rounded.
-///
-/// With the integrator `gather`, a watch sees the film after each pass. A region consists of whole tiles,
-/// whose samples share light; with a time limit, it has no effect.
+/// With a watch, the passes are shorter. With the integrator `path`, the first sample of every pixel is taken
+/// on grids of 8, 4 and 2 pixels first, unless samples are splatted. The film is the same in the end.
 class FrameWatch {
  public:
   virtual ~FrameWatch() = default;

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/frame_window.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
 #include "render/film/film_sums.h"
 
 namespace pelage {
-namespace {
-
-PixelBox intersection(const PixelBox& a, const PixelBox& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
-}  // namespace
 
 FrameWindow frame_window(int width, int height, const std::optional<PixelBox>& region,
                          std::optional<PixelFilter> splat) {
@@ -22,7 +14,7 @@ FrameWindow frame_window(int width, int height, const std::optional<PixelBox>& r
   window.picture = {0, 0, width, height};
   window.region = region.value_or(window.picture);
   const PixelBox& r = window.region;
-  PELAGE_CHECK(r.width() > 0 && r.height() > 0 && intersection(r, window.picture) == r);
+  PELAGE_CHECK(!r.is_empty() && intersection(r, window.picture) == r);
   const int apron = splat ? static_cast<int>(std::ceil(filter_radius(*splat) - 0.5f)) : 0;
   window.traced = intersection({r.x0 - apron, r.y0 - apron, r.x1 + apron, r.y1 + apron}, window.picture);
   // Film tiles at the same places as in the whole picture add their samples in the same order.

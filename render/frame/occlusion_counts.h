@@ -13,10 +13,10 @@ struct OcclusionCounts {
   int64_t rays_proved = 0;        ///< rays that were not traced because the skin blocks them for certain
 
   /// Counts the candidates of one shading. Its shadow ray counts as proved if all candidates are.
-  void add_candidates(int64_t drawn, int64_t proved) {
-    candidates += drawn;
+  void add_candidates(int64_t proposed, int64_t proved) {
+    candidates += proposed;
     candidates_proved += proved;
-    rays_proved += proved == drawn ? 1 : 0;
+    rays_proved += proved == proposed ? 1 : 0;
   }
   OcclusionCounts& operator+=(const OcclusionCounts& other) {
     candidates += other.candidates;

@@ -59,13 +59,14 @@ std::unique_ptr<const SkinBalls> SkinShadows::make(size_t skin, const Job& job) 
   return balls;
 }
 
-SkinShadow SkinShadows::below(const Hit& hit, const HitGeometry& met, float time) const {
+SkinShadow SkinShadows::below(const Hit& hit, const HitGeometry& hit_geometry, float time) const {
   const bool on_strand = hit.kind == HitKind::kStrand;
   if (on_strand && !scene_.fur[hit.part].skin) return {};
   const uint32_t skin = on_strand ? *scene_.fur[hit.part].skin : hit.part;
   const auto& balls = balls_[skin];
   if (!balls) return {};
-  const auto found = balls->find(on_strand ? met.strand.point(0) : position_at_open(hit, met.triangle));
+  const auto found =
+      balls->find(on_strand ? hit_geometry.strand.point(0) : position_at_open(hit, hit_geometry.triangle));
   if (!found) return {};
   return {balls->ball(*found, time), &balls->bounds()};
 }

@@ -21,8 +21,8 @@ class SkinShadows {
   SkinShadows(const RenderScene& scene, const Job& job);
 
   /// Returns the ball below the root of a strand, or below a hit on a skin, at the time of the ray. Proves
-  /// nothing if there is no ball. `met`: the geometry of the hit.
-  SkinShadow below(const Hit& hit, const HitGeometry& met, float time) const;
+  /// nothing if there is no ball. `hit_geometry`: the geometry of the hit.
+  SkinShadow below(const Hit& hit, const HitGeometry& hit_geometry, float time) const;
 
  private:
   std::unique_ptr<const SkinBalls> make(size_t skin, const Job& job);

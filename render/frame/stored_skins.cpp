@@ -76,7 +76,6 @@ std::unique_ptr<const StoredSkins> StoredSkins::open(const ContentStore& store, 
 
 StoredSkins::StoredSkins(StoredSections file, const RenderScene& scene, WarningSink warn)
     : file_(std::move(file)), warn_(std::move(warn)) {
-  file_.keep_cached();
   for (const SkinPart& part : scene.skins) {
     face_counts_.push_back(part.skin->face_count());
     motion_keys_.push_back(part.skin->motion_keys());

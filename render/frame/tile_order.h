@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <vector>
+
+#include "image/exr.h"
 
 namespace pelage {
 
-/// A square of pixels, cut off at the right and lower border of the picture: columns x0 .. x1-1, rows
-/// y0 .. y1-1.
-struct Tile {
-  int x0 = 0, y0 = 0;
-  int x1 = 0, y1 = 0;
-};
+/// A square of pixels, cut off at the right and lower border of the picture.
+using Tile = PixelBox;
 
 /// Returns all tiles of a picture, in the order of a Hilbert curve [Hilbert1891]. Consecutive tiles are close
 /// together, so fur that was grown for one tile can be used for the next. `side`: side of a tile in pixels.

@@ -11,7 +11,12 @@
 namespace pelage {
 
 /// How a pass over the tiles ended.
-enum class PassEnd { kDone, kCancelled, kOutOfTime };
+enum class PassEnd {
+  kDone,
+  kCancelled,
+  kOutOfTime,
+  kInterrupted,  ///< by FrameLoop::Pass::interrupts
+};
 
 /// Calls `trace(tile, worker)` for each tile, on all threads. The threads take the tiles in the given order.
 /// Calls are made inside a FlushDenormals scope. Stops early and returns kCancelled when the job is cancelled

@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMinExponent = -60, kMaxExponent = 60;
+constexpr int kMinSizeExponent = -60, kMaxSizeExponent = 60;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ uint64_t CoatCells::patch(const Hit& hit, const Strands& strand) const {
 uint64_t CoatCells::cube(const Hit& hit, const Strands& strand, float side, uint64_t random) const {
   const RestPlace root = rest_place(fur_[hit.part], strand);
   const float pixels = root.scale * pixels_per_unit(view_, strand.point(0));
-  const int exponent = std::clamp(std::ilogb(side / pixels), kMinExponent, kMaxExponent);
+  const int exponent = std::clamp(std::ilogb(side / pixels), kMinSizeExponent, kMaxSizeExponent);
   uint64_t key =
       hash64(random_use("cell of a coat"), hit.part, side_of(root.normal), static_cast<uint32_t>(exponent));
   for (int axis = 0; axis < 3; ++axis) {

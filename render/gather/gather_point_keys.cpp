@@ -23,17 +23,17 @@ float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
 
 }  // namespace
 
-GatherPointKeys::GatherPointKeys(const RenderScene& scene, uint32_t samples)
+GatherPointKeys::GatherPointKeys(const FrameScene& scene, uint32_t samples)
     : camera_(scene.camera),
       params_(scene.render.gather),
       cells_(scene.camera, scene.fur, static_cast<float>(samples)) {}
 
-GatherPointKey GatherPointKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random,
+GatherPointKey GatherPointKeys::of(const Hit& hit, const HitGeometry& hit_geometry, const V2f& random,
                                    RecentGatherPoints& recent) const {
-  if (hit.kind != HitKind::kStrand) return on_skin(hit, met.triangle, random);
+  if (hit.kind != HitKind::kStrand) return on_skin(hit, hit_geometry.triangle, random);
   const StrandGatherPoints gather_points =
-      recent.of(hit.key(), [&] { return gather_points_of(hit, met.strand); });
-  return on_strand(hit, met.strand, gather_points, random);
+      recent.of(hit.key(), [&] { return gather_points_of(hit, hit_geometry.strand); });
+  return on_strand(hit, hit_geometry.strand, gather_points, random);
 }
 
 StrandGatherPoints GatherPointKeys::gather_points_of(const Hit& hit, const Strands& strand) const {

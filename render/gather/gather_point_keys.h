@@ -9,7 +9,7 @@
 #include "render/camera/camera.h"
 #include "render/gather/coat_cells.h"
 #include "render/gather/strand_gather_points.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -45,12 +45,12 @@ struct GatherPointKey {
 class GatherPointKeys {
  public:
   /// Keeps a reference to `scene`. `samples`: max samples per pixel that are rendered at once.
-  GatherPointKeys(const RenderScene& scene, uint32_t samples);
+  GatherPointKeys(const FrameScene& scene, uint32_t samples);
 
   /// Returns the gather point that a hit is assigned to. `random`: two random numbers in [0, 1), which select
   /// one of the gather points around the hit.
   /// `recent`: of the calling thread.
-  GatherPointKey of(const Hit& hit, const HitGeometry& met, const V2f& random,
+  GatherPointKey of(const Hit& hit, const HitGeometry& hit_geometry, const V2f& random,
                     RecentGatherPoints& recent) const;
 
  private:

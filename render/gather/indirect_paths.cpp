@@ -21,9 +21,9 @@ class IndirectPaths::ArrivingLight {
       : cache_(cache), arriving_(scratch.arriving), counts_(scratch.reflections), clamp_(clamp) {}
 
   /// Ends the path at its second surface if the cache knows what this surface reflects.
-  bool arrive(const PathState& path, const HitGeometry& met) {
+  bool arrive(const PathState& path, const HitGeometry& hit_geometry) {
     if (!cache_ || path.vertex > 1) return true;
-    const ReflectionSlots::Radiance reflected = cache_->find(path.ray, path.hit, met);
+    const ReflectionSlots::Radiance reflected = cache_->find(path.ray, path.hit, hit_geometry);
     ++counts_.lookups;
     if (!reflected) return true;
     ++counts_.found;
@@ -34,7 +34,7 @@ class IndirectPaths::ArrivingLight {
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
     if (through > 0) add(path, from.light, from.value.total() * from.arriving * (through * factor));
   }
-  void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
+  void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
     if (weight * through > 0) add(path, light, radiance * (weight * through));
   }
 

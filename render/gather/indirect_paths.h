@@ -20,7 +20,7 @@ class IndirectPaths {
  public:
   /// Keeps references to its arguments, except `options`. `cache`: ends paths at their second surface; may
   /// be empty.
-  IndirectPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+  IndirectPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                 const CameraSamples& camera, const PathOptions& options,
                 const std::optional<ReflectionCache>& cache)
       : scene_(scene),
@@ -46,7 +46,7 @@ class IndirectPaths {
   void follow(const TileSamples& samples, const VisiblePoint& point, float factor, Scratch& scratch,
               SampleScratch& thread) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const CameraSamples& camera_;
   const std::optional<ReflectionCache>& cache_;
   const PathOptions options_;

@@ -6,11 +6,11 @@
 
 #include "base/job.h"
 #include "render/accel/accel.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/sample_scratch.h"
 #include "render/gather/gather_point_order.h"
 #include "render/gather/light_sharing.h"
 #include "render/gather/tile_samples.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -23,7 +23,7 @@ namespace pelage {
 class ShadowRays {
  public:
   /// Keeps references to its arguments.
-  ShadowRays(const RenderScene& scene, const Accel& accel)
+  ShadowRays(const FrameScene& scene, const Accel& accel)
       : scene_(scene), accel_(accel), guesses_(scene.render.gather.reuse) {}
 
   /// A traced ray.
@@ -55,7 +55,7 @@ class ShadowRays {
   double weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess, Scratch& scratch) const;
   void finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const Accel& accel_;
   const bool guesses_;  // otherwise, each point only uses its own rays
 };

@@ -11,11 +11,11 @@
 namespace pelage {
 namespace {
 
-/// Draws after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
+/// Dimensions after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
 enum FirstVertexDimension : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
 
-void seek(SampleStream& stream, FirstVertexDimension draw) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + draw);
+void seek(SampleStream& stream, FirstVertexDimension dimension) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + dimension);
 }
 
 /// The i-th number of a sequence in [0, 1) from the random number u: a rotation by the golden ratio.
@@ -26,7 +26,7 @@ float turned(float u, size_t i) {
 
 }  // namespace
 
-VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
+VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shading,
                              const CameraSamples& camera, uint32_t samples)
     : scene_(scene),
       shading_(shading),
@@ -49,15 +49,11 @@ uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scra
   return gather_point;
 }
 
-void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
-                         Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
-                         TileSamples& tile) const {
-  const int x = tile.x(pixel), y = tile.y(pixel);
-  SampleStream stream = camera_.stream(x, y, sample);
-  const CameraSample from = known ? *known : camera_.draw(x, y, sample, stream);
+void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& from, const Hit& hit,
+                        Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
+                        TileSamples& tile) const {
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  const Hit hit = find(from.ray);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
@@ -68,23 +64,25 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   film_sample.offset = from.offset;
   TileSamples::Front& front = tile.fronts[pixel];
   if (front.of_pixel.yields_to(shading_.depth(from.ray, hit), film_sample.inside_pixel())) {
-    const VisibleSurface surface = shading_.visible_surface(from.ray, hit, thread.thread.met);
+    const VisibleSurface surface = shading_.visible_surface(from.ray, hit, thread.thread.hit_geometry);
     front.of_pixel.offer(surface, film_sample.inside_pixel());
     front.sample = index;
   }
 
+  const int x = tile.x(pixel), y = tile.y(pixel);
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
   const V2f choice(unit_float(random), unit_float(mix64(random)));
-  const GatherPointKey key = keys_.of(hit, thread.thread.met, choice, scratch.strands);
+  const GatherPointKey key = keys_.of(hit, thread.thread.hit_geometry, choice, scratch.strands);
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
   visible.gather_point = gather_point_of(key, scratch, tile);
   visible.time = from.ray.time;
   visible.random = from.ray.random;
-  const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.hit_geometry);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
+  SampleStream stream = camera_.stream(x, y, sample);
   find_light(point, stream, scratch, thread, visible, tile);
   expect_light(visible, tile.zone_of_gather_point[visible.gather_point], scratch, sharing);
   seek(stream, kLightChoice);

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/sample_scratch.h"
 #include "render/gather/gather_point_keys.h"
 #include "render/gather/index_table.h"
 #include "render/gather/light_sharing.h"
@@ -17,18 +16,14 @@
 
 namespace pelage {
 
-/// Finds the points and lights that the camera samples of a tile see. Assigns each point to a gather point,
-/// and computes the direct light that the point would scatter to the camera if nothing blocked the lights.
-/// Thread safety: const members may be called from any thread, each with its own scratch.
+/// Finds the lights that the camera samples of a tile see, assigns each visible point to a gather point, and
+/// computes the direct light that the visible point would scatter to the camera if nothing blocked the
+/// lights. Thread safety: const members may be called from any thread, each with its own scratch.
 class VisiblePoints {
  public:
   /// Keeps references to its arguments. `samples`: max samples per pixel that share light.
-  VisiblePoints(const RenderScene& scene, const FrameShading& shading, const CameraSamples& camera,
+  VisiblePoints(const FrameScene& scene, const FrameShading& shading, const CameraSamples& camera,
                 uint32_t samples);
-
-  /// Returns what a camera ray sees, as Accel::closest() does. Stores the geometry in the thread's
-  /// HitGeometry.
-  using FindHit = std::function<Hit(const Ray& ray)>;
 
   /// A possible target of a shadow ray.
   struct Candidate {
@@ -55,11 +50,10 @@ class VisiblePoints {
     }
   };
 
-  /// Finds what sample `sample` of a pixel sees, and adds the sample to `tile`. `pixel`: index of the pixel
-  /// in the tile. `known`: the camera sample, or null if it must be made. `find`: uses `thread`. Adds to
-  /// `sharing` the direct light that its guess expects.
-  void look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find, Scratch& scratch,
-            SampleScratch& thread, LightSharing& sharing, TileSamples& tile) const;
+  /// Adds sample `sample` of a pixel to `tile`. `pixel`: index of the pixel in the tile. `hit`: what the
+  /// sample sees; `thread` has the geometry. Adds to `sharing` the direct light that its guess expects.
+  void add(uint32_t pixel, uint32_t sample, const CameraSample& from, const Hit& hit, Scratch& scratch,
+           SampleScratch& thread, LightSharing& sharing, TileSamples& tile) const;
 
  private:
   uint32_t gather_point_of(const GatherPointKey& key, Scratch& scratch, TileSamples& tile) const;
@@ -69,7 +63,7 @@ class VisiblePoints {
                     LightSharing& sharing) const;
   void choose_targets(const ScatterPoint& point, float u, Scratch& scratch, TileSamples& tile) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
   GatherPointKeys keys_;

@@ -65,11 +65,11 @@ struct DirectLightScratch {
 /// any thread, each with its own scratch.
 class DirectLight {
  public:
-  /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `drawn`: where
+  /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `far`: where
   /// points on lights come from; null: Light::sample().
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
-              const FarLightSamples* drawn = nullptr)
-      : lights_(lights), drawn_(drawn), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
+              const FarLightSamples* far = nullptr)
+      : lights_(lights), far_(far), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
   /// surface touching the light does not block it.
@@ -129,7 +129,7 @@ class DirectLight {
                                         DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
-  const FarLightSamples* const drawn_;
+  const FarLightSamples* const far_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
 };
@@ -156,8 +156,8 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
   const LightSet::Choice choice = LightSet::choose(scratch.probabilities, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
   const V2f place(choice.remapped, u.y);
-  const auto seen = drawn_ ? drawn_->sample(choice.light, point.position(), place)
-                           : lights_.light(choice.light).sample(point.position(), place);
+  const auto seen = far_ ? far_->sample(choice.light, point.position(), place)
+                         : lights_.light(choice.light).sample(point.position(), place);
   if (!seen || !(seen->pdf > 0)) return std::nullopt;
   const auto sample = point.exit().toward(*seen);
   if (!sample) return std::nullopt;

@@ -33,9 +33,9 @@ EnvironmentLight::EnvironmentLight(std::string name, std::shared_ptr<const Textu
 std::optional<LightSample> EnvironmentLight::sample(const V3f&, const V2f& u) const {
   if (!(importance_ > 0.0f)) return std::nullopt;
   if (!map_) return LightSample{uniform_direction(u), kInfinity, radiance_, 1.0f / (4.0f * kPi)};
-  const EnvironmentMap::Draw draw = map_->sample(u);
-  const Rgb radiance = map_->radiance(draw.texel);
-  return LightSample{draw.direction * to_world_, kInfinity, radiance, map_->pdf(radiance)};
+  const EnvironmentMap::Sample sample = map_->sample(u);
+  const Rgb radiance = map_->radiance(sample.texel);
+  return LightSample{sample.direction * to_world_, kInfinity, radiance, map_->pdf(radiance)};
 }
 
 float EnvironmentLight::pdf(const V3f&, const V3f& direction) const {

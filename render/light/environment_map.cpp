@@ -15,13 +15,13 @@ namespace pelage {
 
 namespace {
 
-constexpr double kPiD = std::numbers::pi;
+constexpr double kExactPi = std::numbers::pi;
 /// Side length of the blocks of texels that are read at once: the largest cell, and a tile of tiled textures.
-constexpr int kBlock = 64;
+constexpr int kBlockTexels = 64;
 
 int divided_up(int a, int b) { return (a + b - 1) / b; }
 
-bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
+bool is_finite_texel(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 /// One of a few entries, selected in proportion to their weights, which must not all be zero. `rest`: `u`
 /// rescaled to [0, 1) within it.
@@ -33,21 +33,22 @@ DiscreteSample sample_discrete(const double* weights, int count, float u) {
   double total = 0;
   for (int i = 0; i < count; ++i) total += weights[i];
   double left = static_cast<double>(u) * total;
-  DiscreteSample draw;
+  DiscreteSample choice;
   for (int i = 0; i < count; ++i) {
     if (!(weights[i] > 0)) continue;
-    draw = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
+    choice = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
     if (left < weights[i]) break;
     left -= weights[i];  // the last one gets the rounding remainder
   }
-  return draw;
+  return choice;
 }
 
 }  // namespace
 
 int EnvironmentMap::cell_side(int width, int height, int64_t max_cells) {
   int side = 1;
-  while (side < kBlock && int64_t(divided_up(width, side)) * divided_up(height, side) > max_cells) side *= 2;
+  while (side < kBlockTexels && int64_t(divided_up(width, side)) * divided_up(height, side) > max_cells)
+    side *= 2;
   return side;
 }
 
@@ -74,7 +75,7 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& 
   rows_ = divided_up(height, cell_);
   row_cosine_.resize(static_cast<size_t>(height) + 1);
   for (size_t y = 0; y < row_cosine_.size(); ++y) {
-    row_cosine_[y] = std::cos(kPiD * static_cast<double>(y) / static_cast<double>(height));
+    row_cosine_[y] = std::cos(kExactPi * static_cast<double>(y) / static_cast<double>(height));
   }
   const auto columns = static_cast<size_t>(columns_), rows = static_cast<size_t>(rows_);
   row_cdf_.resize(rows);
@@ -82,7 +83,7 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& 
   column_cdf_.resize(columns * rows);
   column_guide_size_ = guide_size(columns);
   column_guide_.resize(column_guide_size_ * rows);
-  for (int y = 0; y < height; y += kBlock) measure_band(y, check_stop);
+  for (int y = 0; y < height; y += kBlockTexels) measure_band(y, check_stop);
   for (size_t y = 0; y < rows; ++y) {
     const double sum = make_guided_cdf({&column_cdf_[y * columns], columns},
                                        {&column_guide_[y * column_guide_size_], column_guide_size_});
@@ -97,10 +98,10 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& 
   inverse_power_ = power_ > 0 ? static_cast<float>(1 / power_) : 0.0f;
 }
 
-/// Stores in column_cdf_ the emission of each cell of kBlock rows of texels: the sum over its columns of the
-/// luminance, averaged over solid angle.
+/// Stores in column_cdf_ the emission of each cell of kBlockTexels rows of texels: the sum over its columns
+/// of the luminance, averaged over solid angle.
 void EnvironmentMap::measure_band(int row, const std::function<void()>& check_stop) {
-  const int height = std::min(kBlock, image_->height() - row);
+  const int height = std::min(kBlockTexels, image_->height() - row);
   std::vector<double> weights(static_cast<size_t>(height));  // of rows within their cells
   for (int y = 0; y < height; ++y) {
     const int top = (row + y) / cell_ * cell_, bottom = std::min(top + cell_, image_->height());
@@ -108,18 +109,18 @@ void EnvironmentMap::measure_band(int row, const std::function<void()>& check_st
     for (int i = top; i < bottom; ++i) solid_angle += texel_solid_angle(i);
     weights[static_cast<size_t>(y)] = texel_solid_angle(row + y) / solid_angle;
   }
-  std::vector<Rgb> block(size_t(kBlock) * kBlock);
+  std::vector<Rgb> block(size_t(kBlockTexels) * kBlockTexels);
   std::vector<double> sums;
-  for (int x = 0; x < image_->width(); x += kBlock) {
+  for (int x = 0; x < image_->width(); x += kBlockTexels) {
     if (check_stop) check_stop();
-    const int width = std::min(kBlock, image_->width() - x);
+    const int width = std::min(kBlockTexels, image_->width() - x);
     image_->colors(x, row, width, height, block.data());
     const int across = divided_up(width, cell_);
     sums.assign(static_cast<size_t>(across) * static_cast<size_t>(divided_up(height, cell_)), 0);
     for (int i = 0; i < width * height; ++i) {
       const int tx = i % width, ty = i / width;
       const Rgb& color = block[static_cast<size_t>(i)];
-      if (!is_finite(color)) {
+      if (!is_finite_texel(color)) {
         throw Error(ErrorKind::kInput, "the environment image is not finite at pixel " +
                                            std::to_string(x + tx) + ", " + std::to_string(row + ty));
       }
@@ -135,7 +136,7 @@ void EnvironmentMap::measure_band(int row, const std::function<void()>& check_st
 }
 
 double EnvironmentMap::texel_solid_angle(int row) const {
-  return 2 * kPiD / image_->width() * (row_cosine_[row] - row_cosine_[row + 1]);
+  return 2 * kExactPi / image_->width() * (row_cosine_[row] - row_cosine_[row + 1]);
 }
 
 Rgb EnvironmentMap::shown(const Rgb& stored) const {
@@ -148,9 +149,9 @@ EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, c
   const int x = static_cast<int>(column) * cell_, y = static_cast<int>(row) * cell_;
   if (cell_ == 1) return {{x, y}, rest};
   const int width = std::min(cell_, image_->width() - x), height = std::min(cell_, image_->height() - y);
-  std::array<Rgb, size_t(kBlock) * kBlock> colors;
+  std::array<Rgb, size_t(kBlockTexels) * kBlockTexels> colors;
   image_->colors(x, y, width, height, colors.data());
-  std::array<double, kBlock> by_row{}, in_row{};
+  std::array<double, kBlockTexels> by_row{}, in_row{};
   const auto weight = [&](int i, int j) {
     return static_cast<double>(luminance(shown(colors[static_cast<size_t>(j * width + i)])));
   };
@@ -164,7 +165,7 @@ EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, c
   return {{x + drawn_column.index, y + drawn_row.index}, {drawn_column.rest, drawn_row.rest}};
 }
 
-EnvironmentMap::Draw EnvironmentMap::sample(const V2f& u) const {
+EnvironmentMap::Sample EnvironmentMap::sample(const V2f& u) const {
   const GuidedSample row = sample_guided(row_cdf_, row_guide_, u.y);
   const auto columns = static_cast<size_t>(columns_);
   const GuidedSample column =
@@ -175,7 +176,7 @@ EnvironmentMap::Draw EnvironmentMap::sample(const V2f& u) const {
   const double cosine = top + rest.y * (bottom - top);
   const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
   const double turn = (static_cast<double>(texel.x) + rest.x) / static_cast<double>(image_->width()) - 0.5;
-  const double phi = 2 * kPiD * turn;
+  const double phi = 2 * kExactPi * turn;
   return {V3f(static_cast<float>(sine * std::sin(phi)), static_cast<float>(cosine),
               static_cast<float>(-sine * std::cos(phi))),
           texel};

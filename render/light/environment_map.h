@@ -35,12 +35,12 @@ class EnvironmentMap {
   struct Texel {
     int x, y;
   };
-  struct Draw {
+  struct Sample {
     V3f direction;
     Texel texel;
   };
   /// Samples a direction. `u`: two random numbers in [0, 1). The map must not be black everywhere.
-  Draw sample(const V2f& u) const;
+  Sample sample(const V2f& u) const;
   /// Returns the texel that contains a direction.
   Texel texel_of(const V3f& direction) const;
   Rgb radiance(Texel texel) const { return shown(image_->texel(texel.x, texel.y)); }

@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-FarLightSamples::FarLightSamples(const LightSet& lights, uint64_t seed, bool draws)
+FarLightSamples::FarLightSamples(const LightSet& lights, uint64_t seed, bool stores)
     : lights_(lights), points_(lights.size()) {
-  for (size_t light = 0; draws && light < lights.size(); ++light) {
+  for (size_t light = 0; stores && light < lights.size(); ++light) {
     if (!lights.light(light).is_infinitely_far()) continue;
     points_[light].reserve(size_t{kSide} * kSide);
     for (uint32_t y = 0; y < kSide; ++y) {
@@ -19,8 +19,8 @@ FarLightSamples::FarLightSamples(const LightSet& lights, uint64_t seed, bool dra
           return std::min((static_cast<float>(cell) + u) / static_cast<float>(kSide), kBelowOne);
         };
         const V2f u(within(x, unit_float(random)), within(y, unit_float(mix64(random))));
-        const auto drawn = lights.light(light).sample(V3f(0), u);
-        points_[light].push_back(drawn ? Point{drawn->direction, drawn->radiance, drawn->pdf} : Point{});
+        const auto sample = lights.light(light).sample(V3f(0), u);
+        points_[light].push_back(sample ? Point{sample->direction, sample->radiance, sample->pdf} : Point{});
       }
     }
   }

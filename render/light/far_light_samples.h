@@ -21,8 +21,9 @@ class FarLightSamples {
  public:
   static constexpr uint32_t kSide = 128;
 
-  /// `lights` must outlive this object. `draws`: if false, no points are stored; sample() is Light::sample().
-  FarLightSamples(const LightSet& lights, uint64_t seed, bool draws);
+  /// `lights` must outlive this object. `stores`: if false, no points are stored; sample() is
+  /// Light::sample().
+  FarLightSamples(const LightSet& lights, uint64_t seed, bool stores);
 
   /// Returns a stored point, or Light::sample() if the light is not infinitely far. `u`: two random
   /// numbers in [0, 1).

@@ -24,7 +24,7 @@ class PathTracer::FilmSink {
     }
   }
 
-  void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
+  void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
     weight *= through;
     if (weight > 0) add(path, light, path.first, path.throughput * radiance * weight);
   }
@@ -48,7 +48,7 @@ class PathTracer::FilmSink {
   SampleScratch& scratch_;
 };
 
-PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
+PathTracer::PathTracer(const FrameScene& scene, const Accel& accel, const FilmLayers& layers,
                        const PathOptions& options)
     : scene_(scene),
       accel_(accel),
@@ -66,7 +66,7 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
   scratch.by_layer.assign(layers_.size(), Rgb(0));
 
   PathState path(camera_.stream(x, y, sample));
-  const CameraSample from = camera_.draw(x, y, sample, path.stream);
+  const CameraSample from = camera_.sample(x, y, sample, path.stream);
   scratch.sample.offset = from.offset;
   path.ray = from.ray;
   path.time = from.ray.time;
@@ -79,8 +79,8 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
               });
   if (!path.hit) return;
   scratch.sample.alpha = 1;
-  scratch.sample.surface = shading_.visible_surface(path.ray, path.hit, scratch.thread.met);
-  const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
+  scratch.sample.surface = shading_.visible_surface(path.ray, path.hit, scratch.thread.hit_geometry);
+  const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry);
   FilmSink sink(layers_, scratch);
   walk_.walk(point, path, scratch.direct, scratch, sink);
 }

@@ -7,7 +7,7 @@
 #include "render/film/film.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/tile_integrator.h"
 #include "render/path/path_walk.h"
 
 namespace pelage {
@@ -16,7 +16,7 @@ namespace pelage {
 /// the scene, the pixel and the index of the sample in its pixel.
 class PathTracer final : public SampleIntegrator {
  public:
-  PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
+  PathTracer(const FrameScene& scene, const Accel& accel, const FilmLayers& layers,
              const PathOptions& options);
 
   std::unique_ptr<SampleScratch> make_scratch() const override;
@@ -26,7 +26,7 @@ class PathTracer final : public SampleIntegrator {
   struct Scratch;
   class FilmSink;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const Accel& accel_;
   const FilmLayers& layers_;
   FrameShading shading_;

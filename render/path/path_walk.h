@@ -7,7 +7,7 @@
 #include "render/accel/accel.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
-#include "render/frame/sample_integrator.h"
+#include "render/frame/sample_scratch.h"
 #include "render/light/direct_light.h"
 #include "render/path/path_options.h"
 #include "render/sampling/sample_stream.h"
@@ -39,20 +39,20 @@ struct PathState {
 ///   shadow(path, point, factor, through)
 ///       Receives the result of a shadow ray. The light that arrives at the current vertex is
 ///       point.arriving * factor * through, where `through` is the fraction that nothing blocks.
-///   met(path, light, radiance, weight, through)
+///   hit_light(path, light, radiance, weight, through)
 ///       Receives a light that the ray sampled from the lobes hits. The light that arrives at the current
 ///       vertex is radiance * weight * through, where `through` is the fraction that nothing blocks.
 /// It may have a third:
-///   arrive(path, met)
-///       Receives each vertex after the first, before its light is found. `met`: the geometry that was hit.
-///       Returns whether the path continues from there.
+///   arrive(path, hit_geometry)
+///       Receives each vertex after the first, before its light is found. `hit_geometry`: the geometry that
+///       was hit. Returns whether the path continues from there.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
 class PathWalk {
  public:
   /// Keeps references to its arguments, except `options`.
-  PathWalk(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+  PathWalk(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
            const PathOptions& options)
       : bounces_(static_cast<uint32_t>(scene.render.bounces)),
         accel_(accel),
@@ -83,26 +83,32 @@ class PathWalk {
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
-  enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDimensions = 5 };
+  enum VertexDimension : uint32_t {
+    kLight = 0,
+    kLobe = 1,
+    kRoulette = 3,
+    kLightChoice = 4,
+    kVertexDimensions = 5
+  };
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
   /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
 
-  /// Sets the next draw of the path's random numbers to a draw of the current vertex.
-  static void seek(PathState& path, Draw draw) {
+  /// Sets the next random number of the path to a dimension of the current vertex.
+  static void seek(PathState& path, VertexDimension dimension) {
     path.stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + kVertexDimensions * path.vertex +
-                     draw);
+                     dimension);
   }
   /// Continues a path that has hit its next vertex.
   void walk_on(PathState& path, DirectLightScratch& lights, SampleScratch& scratch, Sink& sink) const {
     bool goes_on = true;
     while (goes_on) {
       ++path.vertex;
-      if constexpr (requires { sink.arrive(path, scratch.thread.met); }) {
-        if (!sink.arrive(path, scratch.thread.met)) return;
+      if constexpr (requires { sink.arrive(path, scratch.thread.hit_geometry); }) {
+        if (!sink.arrive(path, scratch.thread.hit_geometry)) return;
       }
-      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
-                        sink);
+      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry), path, lights,
+                        scratch, sink);
     }
   }
   /// Returns the count of shadow rays at the current vertex: after the first, twice as many. Such a vertex
@@ -191,7 +197,7 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                           scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
                           through = proved ? 0 : scratch.light_through(accel_, shadow);
                         }
-                        sink.met(path, light, hit.radiance, weight, through);
+                        sink.hit_light(path, light, hit.radiance, weight, through);
                       });
 }
 

@@ -4,7 +4,7 @@
 namespace pelage {
 namespace {
 
-constexpr float kRounding = 1e-5f;
+constexpr float kDepthRounding = 1e-5f;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void DepthGrid::update(const float* depths) {
   }
   far_ = 0;
   for (float& max : max_) {
-    max *= 1 + kRounding;
+    max *= 1 + kDepthRounding;
     far_ = std::max(far_, max);
   }
 }

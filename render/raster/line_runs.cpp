@@ -7,9 +7,9 @@
 namespace pelage {
 namespace {
 
-constexpr float kRounding = 1.0001f;
+constexpr float kLineRounding = 1.0001f;
 /// Shapes nearer than this many times their reach may be met by any line.
-constexpr float kNear = 1e-3f;
+constexpr float kNearPart = 1e-3f;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Range key_fractions(const TileLines::Group& group, const KeySpan& keys) {
 
 /// Lines may be anywhere where a shape is beside the origin or behind.
 bool LineRuns::all_if_near(float min_depth, float reach) {
-  if (min_depth > std::max(near_, 0.0f) + kNear * reach) return false;
+  if (min_depth > std::max(near_, 0.0f) + kNearPart * reach) return false;
   runs_[0] = {0, static_cast<uint32_t>(lines_.size())};
   count_ = 1;
   return true;
@@ -41,14 +41,14 @@ void LineRuns::add(const TileLines::Run& run) {
 LineRuns::Point LineRuns::project(const TileLines::Group& group, const V3f& p, float reach,
                                   float min_depth) const {
   const float inverse = 1 / std::max(p.z, min_depth), shift = inverse - lines_.inverse_reference();
-  Point result{{p.x * inverse, p.y * inverse}, kRounding * reach / min_depth};
+  Point result{{p.x * inverse, p.y * inverse}, kLineRounding * reach / min_depth};
   if (lines_.has_lens()) {
     const V2f middle(0.5f * (group.a[0].low + group.a[0].high), 0.5f * (group.a[1].low + group.a[1].high));
     const V2f half(0.5f * group.a[0].size(), 0.5f * group.a[1].size());
     result.at -= shift * middle;
     // The depth of the meeting point differs by less than `reach`.
     const float farther = reach / min_depth * inverse;
-    result.width += kRounding * std::max(half.x, half.y) * (std::abs(shift) + farther) +
+    result.width += kLineRounding * std::max(half.x, half.y) * (std::abs(shift) + farther) +
                     farther * std::max(std::abs(middle.x), std::abs(middle.y));
   }
   result.width += 1e-6f * (std::abs(result.at.x) + std::abs(result.at.y));
@@ -106,7 +106,7 @@ void LineRuns::find(const RasterPiece& piece, const KeySpan& keys) {
       const Point first = project(group, at + times.low * motion, reach, min_depth);
       const Point last = project(group, at + times.high * motion, reach, min_depth);
       return Point{0.5f * (first.at + last.at),
-                   std::max(first.width, last.width) + 0.5f * kRounding * (last.at - first.at).length()};
+                   std::max(first.width, last.width) + 0.5f * kLineRounding * (last.at - first.at).length()};
     };
     add_capsule(group, path(from, motion_from), path(to, motion_to));
   }

@@ -10,8 +10,8 @@ namespace {
 
 /// Lines per primitive that is drawn before the grid of depths is updated.
 constexpr int kLinesPerChange = 64, kMinChanges = 32;
-constexpr float kNear = 4;       // times the reach of a piece
-constexpr float kWider = 1e-4f;  // of the size of a box
+constexpr float kNearReach = 4;     // times the reach of a piece
+constexpr float kWiderBox = 1e-4f;  // of the size of a box
 
 }  // namespace
 
@@ -68,7 +68,7 @@ bool TileDrawing::may_see(const Box3f& box) const {
   Four* high[3] = {&boxes.high.x, &boxes.high.y, &boxes.high.z};
   for (size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<int>(axis);
-    const float spread = (1 + kWider) * BeamPlane{frame_.axes[axis], 0}.spread(half);
+    const float spread = (1 + kWiderBox) * BeamPlane{frame_.axes[axis], 0}.spread(half);
     *low[axis] = four(centre[a] - spread);
     *high[axis] = four(centre[a] + spread);
   }
@@ -102,7 +102,7 @@ bool TileDrawing::is_possible(const RasterPiece& piece) const {
     const float reach =
         std::max(piece.r, piece.r + piece.dr) + 4 * std::max(piece.at.bulge(), piece.after().bulge());
     const float min_depth = std::min(ends[0].z, ends[1].z);
-    if (min_depth <= starts_.high + kNear * reach) return false;
+    if (min_depth <= starts_.high + kNearReach * reach) return false;
     if (!piece.moves) break;
   }
   return true;

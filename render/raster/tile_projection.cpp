@@ -11,10 +11,10 @@ using FourInts = int32_t __attribute__((vector_size(16)));
 
 /// Hulls nearer than this may be beside or behind the point where lines start.
 constexpr float kNearest = 1e-18f;
-constexpr float kRounding = 2e-6f;    // of a position
-constexpr float kCellMargin = 1e-3f;  // in cells
+constexpr float kProjectionRounding = 2e-6f;  // of a position
+constexpr float kCellMargin = 1e-3f;          // in cells
 
-Four size_of(Four x) { return larger(x, -x); }
+Four absolute(Four x) { return larger(x, -x); }
 FourInts to_ints(Four x) { return __builtin_convertvector(x, FourInts); }
 
 }  // namespace
@@ -32,7 +32,7 @@ TileProjection::TileProjection(const TileLines& lines, const Range& starts)
     const Range b = lines.slopes(axis);
     const float beyond = -first_depth_ * b.size();
     const float reach = std::abs(a_[axis].low) + std::abs(a_[axis].high);
-    const float outward = beyond + kRounding * reach;
+    const float outward = beyond + kProjectionRounding * reach;
     sides_[2 * axis] = {axis, 1, a_[axis].low - outward, b.low};
     sides_[2 * axis + 1] = {axis, -1, a_[axis].high + outward, b.high};
   }
@@ -66,7 +66,7 @@ void TileProjection::Hulls::find(Four radius, Four nearer, ViewFootprint (&footp
   FourInts first_cells[2], last_cells[2], outside{}, near_inside = {-1, -1, -1, -1};
   for (size_t axis = 0; axis < 2; ++axis) {
     Four low = low_[axis], high = high_[axis];
-    const Four wider = radius * inverse + four(kRounding) * (size_of(low) + size_of(high));
+    const Four wider = radius * inverse + four(kProjectionRounding) * (absolute(low) + absolute(high));
     low -= wider;
     high += wider;
     if (tile.has_lens_) {
@@ -83,7 +83,7 @@ void TileProjection::Hulls::find(Four radius, Four nearer, ViewFootprint (&footp
     last_cells[axis] = to_ints(smaller(larger(to, four(0)), last_cell));
     near_inside &= (insides_[2 * axis] + radius >= four(0)) & (insides_[2 * axis + 1] + radius >= four(0));
   }
-  const Four depth = first - four(4 * kRounding) * size_of(first);
+  const Four depth = first - four(4 * kProjectionRounding) * absolute(first);
   const FourInts is_near = first <= four(kNearest);
   const FourInts is_behind = far_ + radius < four(tile.first_depth_);
   const auto last = static_cast<uint8_t>(tile.last_cell_);

@@ -29,7 +29,7 @@ Range depths_of(const TileFrame& frame, const Box3f& box) {
 }
 
 /// Where the lines of a pixel are close.
-float reference_depth(const RenderScene& scene, const Accel& accel, const TileFrame& frame, float focus) {
+float reference_depth(const FrameScene& scene, const Accel& accel, const TileFrame& frame, float focus) {
   if (scene.camera.has_lens()) return focus;
   const Box3f all = accel.bounds();
   return all.isEmpty() ? 1.0f : std::max(frame.local(all.center()).z, 0.0f);
@@ -58,7 +58,7 @@ TileRaster::View TileRaster::make_lines(const Tile& tile, uint32_t first, uint32
     for (int x = tile.x0; x < tile.x1; ++x) {
       for (uint32_t i = 0; i < count; ++i, ++slot) {
         SampleStream stream = camera_.stream(x, y, first + i);
-        const CameraSample sample = camera_.draw(x, y, first + i, stream);
+        const CameraSample sample = camera_.sample(x, y, first + i, stream);
         scratch.samples[slot] = sample;
         const Ray& ray = sample.ray;
         const V3f from = view.frame.local(ray.origin), along = view.frame.rotated(ray.direction);
@@ -226,7 +226,7 @@ Hit TileRaster::closest(uint32_t pixel, uint32_t sample, TraceThread& thread, Sc
   const size_t at = slot(pixel, sample, scratch);
   if (const std::optional<Hit> hit = drawn_hit(at, thread, scratch)) return *hit;
   ++scratch.traced;
-  scratch.held.take_back(thread.met.strand);
+  scratch.held.take_back(thread.hit_geometry.strand);
   return accel_.closest(scratch.samples[at].ray, thread);
 }
 
@@ -243,7 +243,7 @@ std::optional<Hit> TileRaster::drawn_hit(size_t slot, TraceThread& thread, Scrat
     NearestSoFar nearest;
     FurRays rays;
     visit([&](const ChunkGeometry& geometry) {
-      geometry.closest(scratch.samples[slot].ray, rays, nearest, thread.met);
+      geometry.closest(scratch.samples[slot].ray, rays, nearest, thread.hit_geometry);
     });
     if (!nearest.hit) return std::nullopt;
     chunks_.mark_hit(winner.chunk);
@@ -251,7 +251,7 @@ std::optional<Hit> TileRaster::drawn_hit(size_t slot, TraceThread& thread, Scrat
   }
   const Hit hit = scratch.hits.hit(slot);
   if (!hit) return std::nullopt;
-  scratch.held.lend(hit.handle(), thread.met.strand, [&](Strands& out) {
+  scratch.held.lend(hit.handle(), thread.hit_geometry.strand, [&](Strands& out) {
     visit([&](const ChunkGeometry& geometry) { geometry.strand(hit.strand_index, out); });
   });
   return hit;

@@ -16,7 +16,7 @@
 #include "render/raster/tile_frame.h"
 #include "render/raster/tile_hits.h"
 #include "render/raster/tile_lines.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -33,7 +33,7 @@ class TileDrawing;
 class TileRaster {
  public:
   /// Keeps references to its arguments. `chunks`: the chunks of `accel`; all strands must be in fur trees.
-  TileRaster(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+  TileRaster(const FrameScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const CameraSamples& camera)
       : scene_(scene),
         accel_(accel),
@@ -72,10 +72,12 @@ class TileRaster {
   static const CameraSample& sample(uint32_t pixel, uint32_t sample, const Scratch& scratch) {
     return scratch.samples[slot(pixel, sample, scratch)];
   }
-  /// Returns what this sample sees. Like Accel::closest(), stores the geometry in `thread.met`. Call end()
-  /// before other code uses `thread.met`.
+  /// Returns what this sample sees. Like Accel::closest(), stores the geometry in `thread.hit_geometry`. Call
+  /// end() before other code uses `thread.hit_geometry`.
   Hit closest(uint32_t pixel, uint32_t sample, TraceThread& thread, Scratch& scratch) const;
-  static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
+  static void end(TraceThread& thread, Scratch& scratch) {
+    scratch.held.take_back(thread.hit_geometry.strand);
+  }
 
  private:
   /// The frame and the start depths of the lines of a tile.
@@ -104,7 +106,7 @@ class TileRaster {
   bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
   bool segment_cell_bounds_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const Accel& accel_;
   const ResidentChunks& chunks_;
   const CameraSamples& camera_;

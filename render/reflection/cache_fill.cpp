@@ -22,13 +22,13 @@ constexpr double kTimeShare = 0.25;
 
 }  // namespace
 
-CacheFill::Memory CacheFill::reserve(const RenderScene& scene, const Job& job) {
+CacheFill::Memory CacheFill::reserve(const FrameScene& scene, const Job& job) {
   const CachePlan plan = CachePlan::fitting(scene, job.ledger);
   return {plan, pelage::reserve(job.ledger, MemoryTag::kReflectionCache, plan.bytes,
                                 "the reflection cache (render.gather.cache: false needs none)")};
 }
 
-CacheFill::CacheFill(const RenderScene& scene, const Accel& accel, bool splatted, const PathOptions& options,
+CacheFill::CacheFill(const FrameScene& scene, const Accel& accel, bool splatted, const PathOptions& options,
                      Memory memory)
     : scene_(scene),
       shading_(scene, options.balls),
@@ -152,12 +152,11 @@ TileCosts CacheFill::costs() const {
 }
 
 void CacheFill::add_to(FrameStatistics& statistics) const {
-  for (const auto& scratch : scratch_) statistics.trace += scratch.thread.counts;
+  for (const auto& scratch : scratch_) scratch.add_to(statistics);
   ReflectionStatistics counts = counts_;
   for (size_t level = smallest_; level < cells_.size(); ++level)
     counts.cells += static_cast<int64_t>(cells_[level]);
   statistics.reflections += counts;
-  statistics.rays += costs().rays.counts();
 }
 
 }  // namespace pelage

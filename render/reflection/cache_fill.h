@@ -32,10 +32,10 @@ class CacheFill {
   };
   /// Reserves memory for the plan that fits. Call before chunks take the rest of the memory. Throws Error
   /// (kMemory) when not even the smallest plan fits.
-  static Memory reserve(const RenderScene& scene, const Job& job);
+  static Memory reserve(const FrameScene& scene, const Job& job);
 
   /// Keeps references to its arguments, except `options`. `splatted`: see CameraSamples.
-  CacheFill(const RenderScene& scene, const Accel& accel, bool splatted, const PathOptions& options,
+  CacheFill(const FrameScene& scene, const Accel& accel, bool splatted, const PathOptions& options,
             Memory memory);
 
   /// Traces all paths and puts their light into `cache`. Leaves it empty when `job` was cancelled. Call once.
@@ -54,7 +54,7 @@ class CacheFill {
   void drop_cells(ReflectionTable& sum);
   void finish_slice(const CellRange& range, ReflectionTable sum);
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const FrameShading shading_;
   const CameraSamples camera_;
   const ReflectionPaths paths_;

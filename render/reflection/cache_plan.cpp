@@ -35,19 +35,19 @@ constexpr size_t kMinRoom = 4096;
 /// By default, the cache takes at most 1 / kShares of the memory that is left, if slices make that possible.
 constexpr int64_t kShares = 4;
 
-size_t tile_count(const RenderScene& scene) {
+size_t cache_tile_count(const FrameScene& scene) {
   const auto across = [](int side) {
     return static_cast<size_t>((side + CacheRounds::kSide - 1) / CacheRounds::kSide);
   };
   return across(scene.image.width) * across(scene.image.height);
 }
 
-size_t max_cells(const RenderScene& scene) {
+size_t max_cells(const FrameScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
   const CacheRounds rounds(scene.render);
   // Each tile of each round may round its count of paths up.
   const double paths = std::ceil(rounds.paths * static_cast<double>(rounds.count * pixels)) +
-                       static_cast<double>(tile_count(scene) * rounds.count);
+                       static_cast<double>(cache_tile_count(scene) * rounds.count);
   const size_t limit = std::clamp(kCellsPerPixel * pixels, kFewestCells, kMostCells);
   return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
 }
@@ -62,14 +62,14 @@ size_t CacheRounds::cells_of_tile() const {
   return static_cast<size_t>(std::ceil(paths * kSide * kSide + 1)) * std::tuple_size_v<CellPath>;
 }
 
-CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
+CachePlan CachePlan::with_slices(const FrameScene& scene, uint32_t slices) {
   const size_t lights = scene.lights.size();
   CachePlan plan;
   plan.max_cells = pelage::max_cells(scene);
   plan.slices = slices;
   plan.room = slices == 1 ? plan.max_cells
                           : std::min(plan.max_cells, std::max(plan.max_cells / slices * 5 / 4, kMinRoom));
-  plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), tile_count(scene));
+  plan.batch = std::min(std::max<size_t>(kMostTiles / slices, 1), cache_tile_count(scene));
   const size_t added = plan.batch * CacheRounds(scene.render).cells_of_tile();
   const size_t tables = ReflectionTable::max_bytes(added, lights);
   const size_t slots = ReflectionSlots::bytes(plan.max_cells, lights, plan.density());
@@ -79,7 +79,7 @@ CachePlan CachePlan::with_slices(const RenderScene& scene, uint32_t slices) {
   return plan;
 }
 
-CachePlan CachePlan::fitting(const RenderScene& scene, const MemoryLedger& ledger) {
+CachePlan CachePlan::fitting(const FrameScene& scene, const MemoryLedger& ledger) {
   const auto limit = static_cast<int64_t>(scene.render.gather.memory.bytes);
   CachePlan plan;
   for (uint32_t slices = 1; slices <= kMostSlices; slices *= 2) {

@@ -6,8 +6,7 @@
 
 #include "base/ledger.h"
 #include "render/reflection/reflection_slots.h"
-#include "render/scene/render_params.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -42,11 +41,11 @@ struct CachePlan {
     return slices == 1 ? ReflectionSlots::Density::kFast : ReflectionSlots::Density::kSmall;
   }
   /// Returns the plan with this count of slices.
-  static CachePlan with_slices(const RenderScene& scene, uint32_t slices);
+  static CachePlan with_slices(const FrameScene& scene, uint32_t slices);
   /// Returns the plan with the fewest slices that fits `render.gather.memory` or, by default, a quarter of
   /// what the ledger leaves. If none fits, returns the smallest plan. Throws Error (kMemory) if that exceeds
   /// `render.gather.memory`.
-  static CachePlan fitting(const RenderScene& scene, const MemoryLedger& ledger);
+  static CachePlan fitting(const FrameScene& scene, const MemoryLedger& ledger);
 };
 
 }  // namespace pelage

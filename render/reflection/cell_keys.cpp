@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMinExponent = -60, kMaxExponent = 60;
+constexpr int kMinKeyExponent = -60, kMaxKeyExponent = 60;
 constexpr uint32_t kMaxParts = 128;
 constexpr uint32_t kOutside = 0, kInside = 1;  // of a skin; parts of strands have numbers from 4 on
 constexpr int kSizes[] = {0, 1, 3};  // binary logarithms of the sides of cells / side of the smallest
@@ -50,18 +50,18 @@ uint32_t octant_of(const V3f& direction) {
 
 }  // namespace
 
-std::optional<CellPath> CellKeys::of(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+std::optional<CellPath> CellKeys::of(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const {
   const bool on_strand = hit.kind == HitKind::kStrand;
   if (!on_strand && std::holds_alternative<GlossyParams>(scene_.materials[scene_.skins[hit.part].material]))
     return std::nullopt;
-  const RestPlace at = on_strand ? rest_place(scene_.fur[hit.part], met.strand)
-                                 : rest_place(scene_.skins[hit.part], ray, hit, met.triangle);
-  const V3f seen = on_strand ? met.strand.point(0) : ray.origin + hit.distance * ray.direction;
+  const RestPlace at = on_strand ? rest_place(scene_.fur[hit.part], hit_geometry.strand)
+                                 : rest_place(scene_.skins[hit.part], ray, hit, hit_geometry.triangle);
+  const V3f seen = on_strand ? hit_geometry.strand.point(0) : ray.origin + hit.distance * ray.direction;
   const float pixels = at.scale * pixels_per_unit(view_, seen);
-  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinExponent, kMaxExponent);
-  const float length = on_strand ? length_of_polygon(met.strand) * pixels_per_unit(view_, seen) : 0;
-  const float place = on_strand ? place_on_strand(hit, met.strand) : 0;
-  const uint32_t skin = !on_strand && is_behind(met.triangle, ray) ? kInside : kOutside;
+  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinKeyExponent, kMaxKeyExponent);
+  const float length = on_strand ? length_of_polygon(hit_geometry.strand) * pixels_per_unit(view_, seen) : 0;
+  const float place = on_strand ? place_on_strand(hit, hit_geometry.strand) : 0;
+  const uint32_t skin = !on_strand && is_behind(hit_geometry.triangle, ray) ? kInside : kOutside;
   const uint64_t coat =
       hash64(random_use("cell of reflections"), hit.part, side_of(at.normal), octant_of(ray.direction));
   CellPath cells;

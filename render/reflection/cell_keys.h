@@ -7,7 +7,7 @@
 
 #include "lod/lod_view.h"
 #include "render/accel/accel.h"
-#include "render/scene/render_scene.h"
+#include "render/scene/frame_scene.h"
 
 namespace pelage {
 
@@ -37,14 +37,14 @@ class CellKeys {
   static constexpr float kPartPixels = 4;
 
   /// Keeps a reference to `scene`.
-  explicit CellKeys(const RenderScene& scene) : scene_(scene), view_(scene.camera.lod_view()) {}
+  explicit CellKeys(const FrameScene& scene) : scene_(scene), view_(scene.camera.lod_view()) {}
 
-  /// Returns the cells of the hit of a ray. `met`: the geometry that was hit. Empty where a cell cannot hold
-  /// the reflected light: on glossy skins, which scatter too narrow a lobe.
-  std::optional<CellPath> of(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  /// Returns the cells of the hit of a ray. `hit_geometry`: the geometry that was hit. Empty where a cell
+  /// cannot hold the reflected light: on glossy skins, which scatter too narrow a lobe.
+  std::optional<CellPath> of(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
 
  private:
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const LodView view_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-ReflectionCache::ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
+ReflectionCache::ReflectionCache(const FrameScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                                  MemoryLedger& ledger)
     : keys_(scene), slots_(std::move(cells)) {
   reserved = {};
@@ -13,8 +13,8 @@ ReflectionCache::ReflectionCache(const RenderScene& scene, ReflectionSlots cells
 }
 
 ReflectionSlots::Radiance ReflectionCache::find(const Ray& ray, const Hit& hit,
-                                                const HitGeometry& met) const {
-  const std::optional<CellPath> cells = keys_.of(ray, hit, met);
+                                                const HitGeometry& hit_geometry) const {
+  const std::optional<CellPath> cells = keys_.of(ray, hit, hit_geometry);
   if (!cells) return {};
   for (uint32_t level = 0; level < cells->size(); ++level) {
     if (const auto radiance = slots_.find((*cells)[level], level)) return radiance;

@@ -21,12 +21,12 @@ class ReflectionCache {
 
   /// Keeps a reference to `scene`. `reserved`: covers the memory of `cells` until the cache charges it
   /// itself.
-  ReflectionCache(const RenderScene& scene, ReflectionSlots cells, MemoryCharge reserved,
+  ReflectionCache(const FrameScene& scene, ReflectionSlots cells, MemoryCharge reserved,
                   MemoryLedger& ledger);
 
   /// Returns the mean radiance, by light, that the hit of a ray reflects against the ray. Empty where too few
   /// paths arrived.
-  ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  ReflectionSlots::Radiance find(const Ray& ray, const Hit& hit, const HitGeometry& hit_geometry) const;
   size_t bytes() const { return slots_.bytes(); }
 
  private:

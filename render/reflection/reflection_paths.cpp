@@ -10,11 +10,11 @@
 namespace pelage {
 namespace {
 
-/// Draws after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
+/// Dimensions after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
 enum FirstVertexDimension : uint32_t { kLobe = 1, kRoulette = 3 };
 
-void seek(SampleStream& stream, FirstVertexDimension draw) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + draw);
+void seek(SampleStream& stream, FirstVertexDimension dimension) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + dimension);
 }
 
 }  // namespace
@@ -25,9 +25,9 @@ class ReflectionPaths::Recorder {
   Recorder(const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
       : keys_(keys), range_(range), reflected_(reflected) {}
 
-  bool arrive(const PathState& path, const HitGeometry& met) {
+  bool arrive(const PathState& path, const HitGeometry& hit_geometry) {
     if (path.vertex > 1) return true;
-    cells_ = keys_.of(path.ray, path.hit, met);
+    cells_ = keys_.of(path.ray, path.hit, hit_geometry);
     if (cells_ && !range_.contains(*cells_)) cells_.reset();
     return cells_.has_value();
   }
@@ -35,7 +35,7 @@ class ReflectionPaths::Recorder {
     if (through > 0)
       reflected_[from.light] += path.throughput * from.value.total() * from.arriving * (through * factor);
   }
-  void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
+  void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
     if (weight * through > 0) reflected_[light] += path.throughput * radiance * (weight * through);
   }
   /// Returns the cells of the second surface; empty where there is none, or no cell of the range.
@@ -48,7 +48,7 @@ class ReflectionPaths::Recorder {
   std::optional<CellPath> cells_;
 };
 
-ReflectionPaths::ReflectionPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+ReflectionPaths::ReflectionPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                                  const CameraSamples& camera, const PathOptions& options)
     : scene_(scene),
       accel_(accel),
@@ -80,18 +80,18 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
                              ReflectionTable& table) const {
   SampleStream stream(hash64(random_use("reflections"), static_cast<uint64_t>(scene_.render.seed)),
                       static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
-  const CameraSample from = camera_.draw(x, y, sample, stream);
+  const CameraSample from = camera_.sample(x, y, sample, stream);
   const Hit hit = scratch.closest(RayKind::kCamera, accel_, from.ray);
   if (!hit) return;
-  const ScatterPoint point = shading_.scatter_point(from.ray, hit, scratch.thread.met);
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, scratch.thread.hit_geometry);
   seek(stream, kLobe);
-  const auto drawn = point.sample(stream.next3d());
-  if (!drawn) return;
+  const auto scattered = point.sample(stream.next3d());
+  if (!scattered) return;
   PathState path(stream);
   path.time = from.ray.time;
   path.random = from.ray.random;
-  for (int g = 0; g < kLobeGroups; ++g) path.first[g] = drawn->value.lobes[g] / drawn->value.pdf;
-  path.weight = drawn->value.total() / drawn->value.pdf;
+  for (int g = 0; g < kLobeGroups; ++g) path.first[g] = scattered->value.lobes[g] / scattered->value.pdf;
+  path.weight = scattered->value.total() / scattered->value.pdf;
   if (!(max_component(path.weight) > 0)) return;
   if (options_.roulette) {
     const float survived = PathWalk<Recorder>::survival(path.weight);
@@ -100,8 +100,8 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
     path.weight /= survived;
   }
   Ray ray;
-  ray.origin = point.start(drawn->wi);
-  ray.direction = drawn->wi;
+  ray.origin = point.start(scattered->wi);
+  ray.direction = scattered->wi;
   ray.time = path.time;
   if (!point.can_hit_own_strand()) ray.start = hit.start;
   scratch.reflected.assign(scene_.lights.size(), Rgb(0));

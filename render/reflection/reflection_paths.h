@@ -20,7 +20,7 @@ namespace pelage {
 class ReflectionPaths {
  public:
   /// Keeps references to its arguments, except `options`.
-  ReflectionPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+  ReflectionPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                   const CameraSamples& camera, const PathOptions& options);
 
   struct Scratch final : SampleScratch {
@@ -45,7 +45,7 @@ class ReflectionPaths {
   void follow(int x, int y, uint32_t sample, const CellRange& cells, Scratch& scratch,
               ReflectionTable& table) const;
 
-  const RenderScene& scene_;
+  const FrameScene scene_;
   const Accel& accel_;
   const FrameShading& shading_;
   const CameraSamples& camera_;

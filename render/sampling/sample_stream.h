@@ -52,33 +52,33 @@ constexpr float fraction(uint32_t bits) { return static_cast<float>(bits >> 8) *
 /// Random numbers in [0, 1) for one sample of one pixel: shuffled and Owen-scrambled Sobol points, padded
 /// [Burley20, section 3].
 ///
-/// A draw is one call of next1d() or next2d(). Draws have the indices 0, 1, 2 ... Take the draws with the
-/// same index from all samples of a pixel. They form a scrambled Sobol sequence (in 2-D, a (0, m, 2)-net).
-/// Each index has its own shuffled order. The first 2^k samples of a pixel are therefore stratified in every
-/// draw. Draws with different indices, and draws of different pixels, are independent. A draw is a pure
-/// function of (seed, x, y, sample, index), whatever the order of calls (law 1).
+/// Each call of next1d() or next2d() takes the next dimension: 0, 1, 2 ... In one dimension, the samples of a
+/// pixel form a scrambled Sobol sequence (in 2-D, a (0, m, 2)-net). Each dimension has its own shuffled
+/// order. The first 2^k samples of a pixel are therefore stratified in every dimension. Different dimensions,
+/// and different pixels, are independent. A number is a pure function of (seed, x, y, sample, dimension),
+/// whatever the order of calls (law 1).
 ///
-/// To stratify a quantity over the samples of a pixel, every sample must take this quantity from the draw of
-/// the same index. An index that counted the draws so far would depend on the course of the path. Integrators
-/// therefore call seek() with a fixed index for each use.
+/// To stratify a quantity over the samples of a pixel, every sample must take this quantity from the
+/// same dimension. A dimension that counted the calls so far would depend on the course of the path.
+/// Integrators therefore call seek() with a fixed dimension for each use.
 class SampleStream {
  public:
   SampleStream(uint64_t seed, uint32_t x, uint32_t y, uint32_t sample)
       : key_(hash64(seed, random_use("sample"), x, y)), reversed_sample_(detail::reverse_bits(sample)) {}
 
-  /// Sets the index of the next draw.
-  void seek(uint32_t draw) { draw_ = draw; }
-  /// Returns the index of the next draw.
-  uint32_t draw() const { return draw_; }
+  /// Sets the dimension of the next number.
+  void seek(uint32_t dimension) { dimension_ = dimension; }
+  /// Returns the dimension of the next number.
+  uint32_t dimension() const { return dimension_; }
 
   float next1d() {
-    const uint64_t seeds = mix64(key_ + 2 * static_cast<uint64_t>(draw_++) * kStep);
+    const uint64_t seeds = mix64(key_ + 2 * static_cast<uint64_t>(dimension_++) * kStep);
     const uint32_t index = shuffled_index(static_cast<uint32_t>(seeds));
     return scrambled(index, static_cast<uint32_t>(seeds >> 32));
   }
 
   V2f next2d() {
-    const uint64_t at = key_ + 2 * static_cast<uint64_t>(draw_++) * kStep;
+    const uint64_t at = key_ + 2 * static_cast<uint64_t>(dimension_++) * kStep;
     const uint64_t seeds = mix64(at);
     const uint64_t more_seeds = mix64(at + kStep);
     const uint32_t index = shuffled_index(static_cast<uint32_t>(seeds));
@@ -86,7 +86,7 @@ class SampleStream {
             scrambled(detail::sobol_second_reversed(index), static_cast<uint32_t>(more_seeds))};
   }
 
-  /// Returns next2d() in x and y, and next1d() in z. These are two draws.
+  /// Returns next2d() in x and y, and next1d() in z. These are two dimensions.
   V3f next3d() {
     const V2f xy = next2d();
     return {xy.x, xy.y, next1d()};
@@ -106,7 +106,7 @@ class SampleStream {
 
   uint64_t key_;
   uint32_t reversed_sample_;
-  uint32_t draw_ = 0;
+  uint32_t dimension_ = 0;
 };
 
 }  // namespace pelage

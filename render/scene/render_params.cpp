@@ -61,7 +61,7 @@ void add_occlusion_keys(Schema<RenderParams>& s) {
                  "blocked is not traced, and points on lights behind it are not chosen; the picture has "
                  "the same mean. `off`: every shadow ray is traced",
          .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off",
-         .removed = {{"fractional", "it made coats up to 12 % too bright; use exact"}}});
+         .removed = {"fractional", "it made coats up to 12 % too bright; use exact"}});
   s.remove({"learned_visibility",
             "it took longer than it saved; `integrator: gather` learns which light arrives by itself",
             "false"});
@@ -141,7 +141,7 @@ const Schema<RenderParams>& RenderParams::schema() {
                  "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
                  "only while the shutter is open; `linear`: "
                  "as `exact-shutter`, with boxes that move with the strands",
-         .removed = {{"user", "boxes that it made smaller could lose strands; use conservative or exact"}}});
+         .removed = {"user", "boxes that it made smaller could lose strands; use conservative or exact"}});
     s.remove({"bounds_factor", "it belonged to `bounds: user`, which could lose strands", "1"});
     s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "on"});
     s.remove({"shared_topology", "characters with the same cage always share its refinement", "true"});

@@ -14,14 +14,14 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMaxFrames = 10'000;
+constexpr size_t kMaxRibFrames = 10'000;
 
 /// Position, target and up vector of a camera matrix, and half the height of the picture at distance 1.
 struct Pose {
   V3f position, target, up;
 };
 
-Pose pose_of(const M44f& to_camera) {
+Pose camera_pose(const M44f& to_camera) {
   Imath::M44d inverse;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) inverse[i][j] = to_camera[i][j];
@@ -51,7 +51,7 @@ class PictureBlocks {
     if (!camera.to_camera.moves()) times = {0};
     for (const double time : times) {
       frames_.push_back(frame + time);
-      poses_.push_back(pose_of(camera.to_camera.at(time)));
+      poses_.push_back(camera_pose(camera.to_camera.at(time)));
       fovs_.push_back(vertical_fov(camera));
     }
     keys_ = std::max(keys_, times.size());
@@ -211,8 +211,8 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
   std::vector<int> frames = rib.frames;
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  if (frames.size() > kMaxFrames)
-    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, fmt::format("more than {} frames", kMaxFrames));
+  if (frames.size() > kMaxRibFrames)
+    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, fmt::format("more than {} frames", kMaxRibFrames));
 
   PictureBlocks picture(path, warnings);
   if (frames.size() < 2) picture.add_frame(frames.empty() ? 1 : frames.front(), rib.camera);

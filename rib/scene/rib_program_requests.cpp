@@ -14,7 +14,7 @@ namespace pelage {
 namespace {
 
 constexpr size_t kMaxProcedurals = 1'000'000;  // of one kind
-constexpr size_t kMaxDepth = 100;              // of replies that ask for replies
+constexpr size_t kMaxReplyDepth = 100;         // of replies that ask for replies
 constexpr float kInfinity = 1e38f;             // RI_INFINITY
 
 }  // namespace
@@ -77,7 +77,8 @@ void RibInterpreter::foreign_procedural(const std::string& kind, const std::vect
                   " runs code; skipped (--allow-procedurals runs the programs that the file names)");
     return;
   }
-  if (program_depth_ >= kMaxDepth) request.fail(fmt::format("more than {} nested replies", kMaxDepth));
+  if (program_depth_ >= kMaxReplyDepth)
+    request.fail(fmt::format("more than {} nested replies", kMaxReplyDepth));
   // Four digits, so that rounding of transforms does not make another request.
   programs_.push_back({asking_ ? *asking_ : request, words[0],
                        fmt::format("{:.4g} {}", detail_of(bound), words[1]), now_, program_depth_});

@@ -28,7 +28,7 @@ constexpr char kEndOfReply = '\377';
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kInput, message); }
 
-std::vector<std::string> words_of(const std::string& command) {
+std::vector<std::string> command_words(const std::string& command) {
   std::vector<std::string> words;
   for (size_t at = command.find_first_not_of(' '); at != std::string::npos;) {
     const size_t end = std::min(command.find(' ', at), command.size());
@@ -42,7 +42,7 @@ std::filesystem::path find_program(const std::string& name, std::vector<std::fil
   const std::filesystem::path file(name);
   if (file.is_absolute()) folders = {""};
   if (const char* path = std::getenv("PATH"); path && name.find('/') == std::string::npos) {
-    for (const std::string& part : words_of([&] {
+    for (const std::string& part : command_words([&] {
            std::string text = path;
            std::replace(text.begin(), text.end(), ':', ' ');
            return text;
@@ -210,7 +210,7 @@ RibPrograms::Program& RibPrograms::program(const std::string& command,
                                            const std::vector<std::filesystem::path>& folders) {
   std::unique_ptr<Program>& known = programs_[command];
   if (known) return *known;
-  const std::vector<std::string> words = words_of(command);
+  const std::vector<std::string> words = command_words(command);
   if (words.empty()) fail("expected the name of a program");
   const std::filesystem::path path = find_program(words[0], folders);
   if (!starter_) starter_.emplace();

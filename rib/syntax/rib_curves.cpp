@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-bool has_phantoms(CurveBasis basis) {
+bool needs_phantoms(CurveBasis basis) {
   return basis == CurveBasis::kPinnedBSpline || basis == CurveBasis::kCatmullRom;
 }
 
@@ -22,7 +22,7 @@ void add_phantom(const float* a, const float* b, float*& to) {
 }
 
 void fill_points(const Strands& strands, int key, std::vector<float>& points) {
-  const bool phantoms = has_phantoms(strands.basis());
+  const bool phantoms = needs_phantoms(strands.basis());
   points.resize(3 * (strands.point_count() + (phantoms ? 2 * strands.strand_count() : 0)));
   const float* from = strands.points(key).data();
   float* to = points.data();
@@ -91,7 +91,7 @@ void make_rib_curves(const Strands& strands, int key, RibCurves& curves) {
                                                     : "b-spline";
   curves.vertices.resize(strands.strand_count());
   for (size_t s = 0; s < curves.vertices.size(); ++s)
-    curves.vertices[s] = static_cast<int32_t>(strands.strand_points(s)) + (has_phantoms(basis) ? 2 : 0);
+    curves.vertices[s] = static_cast<int32_t>(strands.strand_points(s)) + (needs_phantoms(basis) ? 2 : 0);
   curves.parameters.resize(2);
   curves.parameters[0].declaration = "P";
   fill_points(strands, key, curves.parameters[0].numbers);

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/temporary_folder.h"
 
-namespace pelage {
+namespace pelage::file_test {
 namespace {
 
 size_t entries(const std::filesystem::path& folder) {
@@ -243,4 +243,4 @@ TEST(AtomicFile, WhatCannotBeWrittenIsAFailureWithThePath) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::file_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/parsed_value.h"
 
-namespace pelage {
+namespace pelage::keyed_test {
 namespace {
 
 std::vector<std::string> problems_of(const Value& value) {
@@ -73,4 +73,4 @@ TEST(Keyed, MistakesAreReported) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::keyed_test

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 
-namespace pelage {
+namespace pelage::stored_sections_test {
 namespace {
 
 constexpr ContentHash kKey{7, 8};
@@ -51,15 +51,6 @@ TEST_F(StoredSectionsOf, are_read_one_by_one) {
   EXPECT_EQ(warnings_, 0);
 }
 
-TEST_F(StoredSectionsOf, are_the_same_when_the_system_caches_them) {
-  auto file = store_.open_sections("test", kKey, sink());
-  ASSERT_TRUE(file);
-  file->keep_cached();
-  for (int pass = 0; pass < 2; ++pass) {
-    for (size_t i = 0; i < texts_.size(); ++i) EXPECT_EQ(read(*file, i), texts_[i]);
-  }
-}
-
 TEST_F(StoredSectionsOf, are_checked_when_they_are_read) {
   std::string bytes = read_file(store_.file("test", kKey));
   bytes[bytes.find("xxx") + 1000] = 'y';
@@ -99,4 +90,4 @@ TEST_F(StoredSectionsOf, of_what_is_damaged_or_foreign_are_absent_with_one_warni
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::stored_sections_test

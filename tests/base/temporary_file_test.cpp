@@ -13,7 +13,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 
-namespace pelage {
+namespace pelage::temporary_file_test {
 namespace {
 
 size_t entries(const std::filesystem::path& folder) {
@@ -109,4 +109,4 @@ TEST(TemporaryFile, ThoseOfOtherMachinesUsersAndHoldersOfTheLockAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::temporary_file_test

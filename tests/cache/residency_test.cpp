@@ -15,7 +15,7 @@
 #include "base/progress.h"
 #include "tests/cache/test_grower.h"
 
-namespace pelage {
+namespace pelage::residency_test {
 namespace {
 
 constexpr size_t kWords = 1000;
@@ -397,4 +397,4 @@ TEST_F(ResidencyDeathTest, AVisitInsideAVisitIsABug) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::residency_test

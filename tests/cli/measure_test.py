@@ -146,10 +146,10 @@ class Measure(unittest.TestCase):
                 self.assertEqual([few["samples"], many["samples"]], [4, 16])
                 self.assertLess(many["rel_mse"], few["rel_mse"])
             if "gather" in curve:
-                self.assertGreater(many["knots"], 0)
+                self.assertGreater(many["gather_points"], 0)
                 self.assertGreater(many["reuse_bias_deviation"], 0)
             else:
-                self.assertEqual(many["knots"], 0)
+                self.assertEqual(many["gather_points"], 0)
                 self.assertIsNone(many["reuse_bias"])
             self.assertIsNone(few["reuse_bias"])
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_gather_point"], 1)
@@ -196,6 +196,11 @@ class Measure(unittest.TestCase):
                 self.assertEqual(row["pixels"], "identical")
             else:
                 self.assertIn("render.memory", row["message"])
+        stored = {row["variant"]: row for row in rows if row["variant"].startswith("stored")}
+        self.assertEqual(list(stored), ["stored, first run", "stored", "stored, 25 %", "stored, 10 %", "stored, 5 %"])
+        self.assertGreater(stored["stored"]["chunks_read"], 0)
+        self.assertEqual(stored["stored"]["strands_generated"], 0)
+        self.assertEqual(list((self.path / "out").glob("pelage-*")), [], "the stored fur was left behind")
 
     def test_growth(self):
         self.measure("growth", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")

@@ -15,7 +15,7 @@ TEST(StatsJson, HoldsWhatIsPromised) {
   statistics.process.wall_s = 1.5;
   statistics.process.peak_rss_bytes = int64_t(1) << 40;
   statistics.frames.rays = {.camera = 3, .shadow = 5, .indirect = 0};
-  statistics.frames.knots = {.knots = 11, .samples = 40};
+  statistics.frames.gather_points = {.count = 11, .samples = 40};
   statistics.frames.reflections = {.cells = 12, .paths = 13, .lookups = 15, .found = 14};
   statistics.process.memory_bytes = {{"film", 7}};
   statistics.stages_s = {{"grow", 0.25}, {"read", 1}};
@@ -25,12 +25,12 @@ TEST(StatsJson, HoldsWhatIsPromised) {
   EXPECT_EQ(json.at("wall_s"), 1.5);
   EXPECT_EQ(json.at("peak_rss_bytes"), int64_t(1) << 40);
   EXPECT_EQ(json.at("rays").at("shadow"), 5);
-  EXPECT_EQ(json.at("knots"), 11);
+  EXPECT_EQ(json.at("gather_points"), 11);
   EXPECT_EQ(json.at("reflection_cells"), 12);
   EXPECT_EQ(json.at("reflection_paths"), 13);
   EXPECT_EQ(json.at("reflection_lookups"), 15);
   EXPECT_EQ(json.at("reflections_found"), 14);
-  EXPECT_EQ(json.at("knot_samples"), 40);
+  EXPECT_EQ(json.at("gather_point_samples"), 40);
   EXPECT_EQ(json.at("memory_bytes").at("film"), 7);
   EXPECT_EQ(json.at("stages_s"), nlohmann::json({{"grow", 0.75}, {"read", 1.0}, {"render", 2.0}}));
   for (const char* name : {"cpu_s",

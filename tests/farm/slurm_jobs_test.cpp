@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pelage {
+namespace pelage::slurm_jobs_test {
 namespace {
 
 FarmPlan plan(int frames, int columns, bool grows = false) {
@@ -104,4 +104,4 @@ TEST(SlurmJobs, TheScriptOfATaskKnowsItsFolderAndItsRetries) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::slurm_jobs_test

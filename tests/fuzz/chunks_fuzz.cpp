@@ -28,17 +28,17 @@ Ray ray_at(const V3f& middle, float size, int i) {
 }
 
 void trace(const FurChunk& chunk, const Ray& ray) {
-  HitGeometry met;
+  HitGeometry hit_geometry;
   Ray here = ray;
   // A hit, and what is met from there.
   for (int bounce = 0; bounce < 2; ++bounce) {
     FurRays rays;
     NearestSoFar nearest;
-    if (chunk.closest(here, rays, nearest, met)) {
+    if (chunk.closest(here, rays, nearest, hit_geometry)) {
       const Hit& hit = nearest.hit;
       PELAGE_CHECK(hit.kind == HitKind::kStrand && hit.distance >= here.near && hit.distance <= here.far);
-      PELAGE_CHECK(met.strand.strand_count() == 1 && met.strand.id(0) == hit.strand_id);
-      PELAGE_CHECK(3 * hit.segment + 4 <= met.strand.strand_points(0));
+      PELAGE_CHECK(hit_geometry.strand.strand_count() == 1 && hit_geometry.strand.id(0) == hit.strand_id);
+      PELAGE_CHECK(3 * hit.segment + 4 <= hit_geometry.strand.strand_points(0));
     }
     Crossings crossings;
     FurRays others;

@@ -17,7 +17,7 @@
 #include "tests/geom/cages.h"
 #include "tests/support/allocation_meter.h"
 
-namespace pelage {
+namespace pelage::flat_surface_test {
 namespace {
 
 std::shared_ptr<const SurfaceTopology> flat(const ControlMesh& mesh) {
@@ -287,4 +287,4 @@ TEST(FlatSurface, TakesLittleMemory) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::flat_surface_test

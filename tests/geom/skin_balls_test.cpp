@@ -13,7 +13,7 @@
 #include "tests/geom/eared_skin.h"
 #include "tests/support/quiet_job.h"
 
-namespace pelage {
+namespace pelage::skin_balls_test {
 namespace {
 
 V3f random_point(uint64_t i, float reach) {
@@ -147,4 +147,4 @@ TEST(SkinBalls, AreTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::skin_balls_test

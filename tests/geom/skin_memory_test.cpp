@@ -11,7 +11,7 @@
 #include "tests/support/allocation_meter.h"
 #include "tests/support/data.h"
 
-namespace pelage {
+namespace pelage::skin_memory_test {
 namespace {
 
 struct Case {
@@ -90,4 +90,4 @@ TEST(SkinMemory, OfRealCages) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::skin_memory_test

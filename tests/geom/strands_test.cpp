@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pelage {
+namespace pelage::strands_test {
 namespace {
 
 StrandArrays two_strands(CurveBasis basis = CurveBasis::kPinnedBSpline) {
@@ -121,4 +121,4 @@ TEST(StrandsDeathTest, RefusesArraysThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::strands_test

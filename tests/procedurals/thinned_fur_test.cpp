@@ -14,7 +14,7 @@
 #include "tests/procedurals/random_coats.h"
 #include "tests/support/quiet_job.h"
 
-namespace pelage {
+namespace pelage::thinned_fur_test {
 namespace {
 
 struct Seen {
@@ -223,4 +223,4 @@ TEST(ThinnedFur, BoxesAreRememberedForTheirViewOnly) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::thinned_fur_test

@@ -22,7 +22,7 @@ TEST(Statistics, SumWhatFramesCounted) {
   result.statistics.cpu_s = {.camera_rays = 1, .shadow_rays = 2, .indirect_rays = 3, .shading = 4};
   result.statistics.residency.cpu_s = 0.25;
   result.statistics.samples_rejected = 1;
-  result.statistics.knots = {.knots = 2, .samples = 50};
+  result.statistics.gather_points = {.count = 2, .samples = 50};
   result.statistics.reflections = {.cells = 3, .paths = 4, .lookups = 6, .found = 5};
   result.statistics.stages_s = {{"render", 2.0}};
   Statistics run;
@@ -48,8 +48,8 @@ TEST(Statistics, SumWhatFramesCounted) {
   EXPECT_EQ(frames.cpu_s.shading, 12);
   EXPECT_EQ(frames.residency.cpu_s, 0.75);
   EXPECT_EQ(frames.samples_rejected, 3);
-  EXPECT_EQ(frames.knots.knots, 6);
-  EXPECT_EQ(frames.knots.samples, 150);
+  EXPECT_EQ(frames.gather_points.count, 6);
+  EXPECT_EQ(frames.gather_points.samples, 150);
   EXPECT_EQ(frames.reflections.cells, 9);
   EXPECT_EQ(frames.reflections.paths, 12);
   EXPECT_EQ(frames.reflections.lookups, 18);

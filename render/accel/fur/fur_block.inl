@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of fur_kernels.cpp: contents of blocks of four segments.
 
+/// Motion of a tree. kAny: known at run time only; slower, with the same bits.
+enum class Motion { kNone, kKeys, kAny };
+
 /// The four curves of a block: Bezier points by axis, radii.
-template <bool kWide, bool kMoving>
+template <bool kWide, Motion kMotion>
 class Block {
  public:
-  PELAGE_FUR_INLINE Block(const std::byte* block, const FurRay& ray)
+  PELAGE_FUR_INLINE Block(const std::byte* block, const FurRay& ray, int motion_keys)
       : key_(block + sizeof(FurBlockHeader) + static_cast<size_t>(ray.key) * kSizes.key()),
+        next_(motion_keys > 1 ? kSizes.key() : 0),
         before_(1 - ray.fraction),
         after_(ray.fraction) {
     for (size_t axis = 0; axis < 3; ++axis)
@@ -20,7 +24,7 @@ class Block {
     if constexpr (!kMoving) return here;
     const double after = after_;
     return hn::Add(hn::Mul(here, hn::Set(kDoubles, 1 - after)),
-                   hn::Mul(decoded(place + kSizes.key(), axis), hn::Set(kDoubles, after)));
+                   hn::Mul(decoded(place + next(), axis), hn::Set(kDoubles, after)));
   }
   /// Numbers of the axis from `first` on, all lanes of a point and then those of the next: coordinates of the
   /// first point, followed by the differences of each point from the previous one.
@@ -29,13 +33,13 @@ class Block {
     const std::byte* place = key_ + axis * kSizes.axis + first * (kSizes.axis / 16);
     const auto here = decoded_difference(d, place, axis, first);
     if constexpr (!kMoving) return here;
-    return mix(d, here, decoded_difference(d, place + kSizes.key(), axis, first));
+    return mix(d, here, decoded_difference(d, place + next(), axis, first));
   }
   PELAGE_FUR_INLINE void load_radii(V (&r)[4]) const {
     for (size_t i = 0; i < 4; ++i) {
       const std::byte* place = key_ + 3 * kSizes.axis + i * (kSizes.radii / 4);
       r[i] = radius(place);
-      if constexpr (kMoving) r[i] = mix(kFloats, r[i], radius(place + kSizes.key()));
+      if constexpr (kMoving) r[i] = mix(kFloats, r[i], radius(place + next()));
     }
   }
   PELAGE_FUR_INLINE V max_radius() const {
@@ -54,6 +58,10 @@ class Block {
 
  private:
   static constexpr FurBlockSizes kSizes = kWide ? kWideBlock : kNarrowBlock;
+  static constexpr bool kMoving = kMotion != Motion::kNone;
+
+  /// From one key to the next.
+  PELAGE_FUR_INLINE size_t next() const { return kMotion == Motion::kKeys ? kSizes.key() : next_; }
 
   static PELAGE_FUR_INLINE V square_of(V root) { return hn::Mul(hn::Mul(root, root), all(1.0f / 256)); }
   template <class D>
@@ -98,6 +106,7 @@ class Block {
   }
 
   const std::byte* key_;
+  size_t next_;
   float origin_[3];
   float before_, after_;
 };

@@ -8,11 +8,11 @@
 namespace pelage {
 namespace {
 
-constexpr int kDeepest = 20;  // number of halvings
+constexpr int kMaxHalvings = 20;  // number of halvings
 // Newton's method; then every other step is a bisection, which ends at the limit of rounding (see
 // fur_curves.inl).
-constexpr int kNewtonSteps = 16, kMaxSteps = kNewtonSteps + 2 * 22;
-constexpr float kNear = 0x1p-22f;  // in the parameter
+constexpr int kNewtonSteps = 16, kMaxRootSteps = kNewtonSteps + 2 * 22;
+constexpr float kNearRoots = 0x1p-22f;  // in the parameter
 
 /// c . c' / 3 over a part of the curve, as Bernstein coefficients times ten over binomials.
 using Quintic = std::array<float, 6>;
@@ -29,13 +29,13 @@ Quintic distance_derivative(const PlaneCurve& curve) {
           curve.end_x * curve.dx[2] + curve.end_y * curve.dy[2]};
 }
 
-struct Part {
+struct FoldPart {
   Quintic f;
   float begin, end;
   int depth;
   bool flat_begin, flat_end;  // the curve's own ends, where points coincide
 
-  void halve(Part& left, Part& right) const {
+  void halve(FoldPart& left, FoldPart& right) const {
     Quintic row = f;
     const float middle = 0.5f * (begin + end);
     left = {{}, begin, middle, depth + 1, flat_begin, false};
@@ -73,7 +73,7 @@ float solve(const PlaneCurve& curve, float begin, float end) {
     return ((a * u + b) * u + c) * u + point;
   };
   float u = 0.5f * (begin + end);
-  for (int i = 0; i < kMaxSteps && end - begin > kNear; ++i) {
+  for (int i = 0; i < kMaxRootSteps && end - begin > kNearRoots; ++i) {
     float x1, x2, y1, y2;
     const float x = evaluate(curve.x[0], curve.dx, u, x1, x2), y = evaluate(curve.y[0], curve.dy, u, y1, y2);
     const float f = x * x1 + y * y1;
@@ -83,7 +83,7 @@ float solve(const PlaneCurve& curve, float begin, float end) {
     if (halves || !(next >= begin && next <= end)) next = 0.5f * (begin + end);
     const float step = std::abs(next - u);
     u = next;
-    if (step < kNear && !halves) break;
+    if (step < kNearRoots && !halves) break;
   }
   return u;
 }
@@ -91,19 +91,19 @@ float solve(const PlaneCurve& curve, float begin, float end) {
 }  // namespace
 
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]) {
-  Part waiting[kDeepest + 2];
+  FoldPart waiting[kMaxHalvings + 2];
   size_t depth = 0, count = 0;
   const auto is_flat = [&](size_t i) { return curve.dx[i] == 0 && curve.dy[i] == 0; };
   waiting[depth++] = {distance_derivative(curve), 0, 1, 0, is_flat(0), is_flat(2)};
   while (depth > 0 && count < 3) {
-    const Part part = waiting[--depth];
+    const FoldPart part = waiting[--depth];
     const int changes = part.sign_changes();
     if (changes == 0 || (changes == 1 && !part.rises())) continue;
-    if (changes == 1 || part.depth == kDeepest) {
+    if (changes == 1 || part.depth == kMaxHalvings) {
       if (part.rises()) out[count++] = solve(curve, part.begin, part.end);
       continue;
     }
-    Part left, right;
+    FoldPart left, right;
     part.halve(left, right);
     waiting[depth++] = right;
     waiting[depth++] = left;

@@ -31,7 +31,7 @@ Samples samples_of(const SnappedStrands& strands) {
     const uint64_t first = i * count / max, end = (i + 1) * count / max;
     const auto number = static_cast<uint32_t>(first + hash64(i, random_use("fur frame")) % (end - first));
     const SnappedSegment segment = strands.segment(strands.locate(number), 0);
-    if (SnappedStrands::is_drawable(segment)) samples.push_back(segment);
+    if (SnappedStrands::is_visible(segment)) samples.push_back(segment);
   }
   return samples;
 }

@@ -26,10 +26,6 @@ struct FurHit {
   float h = 0;                                              ///< offset across the strand, as Hit::v
 
   explicit operator bool() const { return number != kNone; }
-  /// Whether this hit is nearer than `o`, or equally near with a smaller segment number.
-  bool precedes(const FurHit& o) const {
-    return distance != o.distance ? distance < o.distance : number < o.number;
-  }
 };
 
 /// Decides which hits a query accepts. A query may call accepts() in any order of hits, and several times for

@@ -51,9 +51,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Query>
 PELAGE_FUR_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) {
   if (tree.motion_keys > 1) {
-    walk<true>(tree, ray, query);
+    walk<Motion::kKeys>(tree, ray, query);
   } else {
-    walk<false>(tree, ray, query);
+    walk<Motion::kNone>(tree, ray, query);
   }
 }
 
@@ -69,11 +69,13 @@ FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
 }
 
 FurHit closest_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at, FurFilter* filter) {
-  OnlySegment<NearestFur> query(at.number, ray, filter, tree.step);
-  if (tree.motion_keys > 1) {
-    at.wide ? test_wide_block<true>(at.block, ray, query) : test_block<false, true>(at.block, ray, query);
+  NearestFur query(ray, filter, tree.step, at.number);
+  if (!at.wide) {
+    test_block<false, Motion::kAny>(at.block, ray, tree.motion_keys, query);
+  } else if (tree.motion_keys > 1) {
+    test_wide_block<Motion::kKeys>(at.block, ray, tree.motion_keys, query);
   } else {
-    at.wide ? test_wide_block<false>(at.block, ray, query) : test_block<false, false>(at.block, ray, query);
+    test_wide_block<Motion::kNone>(at.block, ray, tree.motion_keys, query);
   }
   return query.hit;
 }

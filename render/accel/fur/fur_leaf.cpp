@@ -18,7 +18,7 @@ void put(std::byte* block, size_t offset, T value) {
 }
 
 template <class T>
-T get(const std::byte* block, size_t offset) {
+T block_value(const std::byte* block, size_t offset) {
   T value;
   std::memcpy(&value, block + offset, sizeof(value));
   return value;
@@ -102,21 +102,22 @@ void write_block(const FurBlockContents& contents, int motion_keys, bool wide, s
 }
 
 SnappedSegment read_block(const std::byte* block, bool wide, size_t lane, int key) {
-  const auto header = get<FurBlockHeader>(block, 0);
+  const auto header = block_value<FurBlockHeader>(block, 0);
   SnappedSegment segment;
   for (size_t point = 0; point < 4; ++point) {
     for (size_t axis = 0; axis < 3; ++axis) {
       segment[point][axis] =
-          wide ? get<float>(block, value_offset(kWideBlock, sizeof(float), lane, point, axis, key))
+          wide ? block_value<float>(block, value_offset(kWideBlock, sizeof(float), lane, point, axis, key))
                : static_cast<float>(header.origin[axis]) +
-                     static_cast<float>(get<uint16_t>(
+                     static_cast<float>(block_value<uint16_t>(
                          block, value_offset(kNarrowBlock, sizeof(uint16_t), lane, point, axis, key)));
     }
     if (wide) {
-      segment[point][3] = get<float>(block, value_offset(kWideBlock, sizeof(float), lane, point, 3, key));
+      segment[point][3] =
+          block_value<float>(block, value_offset(kWideBlock, sizeof(float), lane, point, 3, key));
     } else {
       const auto root = static_cast<float>(
-          get<uint8_t>(block, value_offset(kNarrowBlock, sizeof(uint8_t), lane, point, 3, key)));
+          block_value<uint8_t>(block, value_offset(kNarrowBlock, sizeof(uint8_t), lane, point, 3, key)));
       segment[point][3] = root * root * (1.0f / 256);
     }
   }

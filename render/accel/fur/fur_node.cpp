@@ -9,19 +9,19 @@
 namespace pelage {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kMaxSteps = 255;
+constexpr float kInfiniteBound = std::numeric_limits<float>::infinity();
+constexpr float kMaxGridStep = 255;
 
 /// The largest step from which origin + step * scale does not exceed `low`.
 uint8_t step_below(float low, float origin, float scale) {
-  float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMaxSteps);
+  float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMaxGridStep);
   while (step > 0 && origin + step * scale > low) --step;
   return static_cast<uint8_t>(step);
 }
 
 uint8_t step_above(float high, float origin, float scale) {
-  float step = std::clamp(std::ceil((high - origin) / scale), 0.0f, kMaxSteps);
-  while (step < kMaxSteps && origin + step * scale < high) ++step;
+  float step = std::clamp(std::ceil((high - origin) / scale), 0.0f, kMaxGridStep);
+  while (step < kMaxGridStep && origin + step * scale < high) ++step;
   return static_cast<uint8_t>(step);
 }
 
@@ -52,7 +52,7 @@ void write_node(int motion_keys, std::span<const FurChild> children, std::byte* 
     // Slightly larger than needed, so that the last step is beyond the high side in float as well; and not
     // below the precision of float there.
     const float reach = std::max(std::abs(whole.low[axis]), std::abs(whole.high[axis]));
-    scale[axis] = std::max({extent / (kMaxSteps - 1), reach * 0x1p-23f, 0x1p-40f});
+    scale[axis] = std::max({extent / (kMaxGridStep - 1), reach * 0x1p-23f, 0x1p-40f});
   }
   uint32_t references[4] = {};
   for (size_t i = 0; i < children.size(); ++i) references[i] = children[i].reference.bits();
@@ -92,8 +92,8 @@ FurBox child_box(const std::byte* node, size_t i, int key) {
     std::memcpy(
         sides, node + FurQuantisedNode::kPlanes + k * FurQuantisedNode::kKey + axis * FurQuantisedNode::kAxis,
         sizeof(sides));
-    box.low[axis] = std::nextafter(origin + static_cast<float>(sides[0][i]) * scale, -kInfinity);
-    box.high[axis] = std::nextafter(origin + static_cast<float>(sides[1][i]) * scale, kInfinity);
+    box.low[axis] = std::nextafter(origin + static_cast<float>(sides[0][i]) * scale, -kInfiniteBound);
+    box.high[axis] = std::nextafter(origin + static_cast<float>(sides[1][i]) * scale, kInfiniteBound);
   }
   return box;
 }

@@ -47,8 +47,9 @@ inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, fl
 /// Query for the nearest hit. take() returns false: the ray always continues.
 class NearestFur {
  public:
-  NearestFur(const FurRay& ray, FurFilter* filter, float step)
-      : near_(ray.near), step_(step), filter_(filter) {
+  /// `only`: number of the only segment that may be hit; kNone: any.
+  NearestFur(const FurRay& ray, FurFilter* filter, float step, uint32_t only = FurHit::kNone)
+      : near_(ray.near), step_(step), only_(only), filter_(filter) {
     hit.distance = ray.far;
   }
   float far() const { return hit.distance; }
@@ -57,7 +58,8 @@ class NearestFur {
   /// Whether a hit at this distance on segment `number` precedes the current hit.
   bool wants(float distance, uint32_t number) const {
     return distance > near_ &&
-           (distance < hit.distance || (hit && distance == hit.distance && number < hit.number));
+           (distance < hit.distance || (hit && distance == hit.distance && number < hit.number)) &&
+           (only_ == FurHit::kNone || only_ == number);
   }
   bool take(const FurHit& found) {
     if (filter_) {
@@ -72,6 +74,7 @@ class NearestFur {
 
  private:
   float near_, step_;
+  uint32_t only_;
   FurFilter* filter_;
 };
 
@@ -95,27 +98,13 @@ class AnyFur {
   FurFilter* filter_;
 };
 
-/// A query about one segment.
-template <class Query>
-class OnlySegment : public Query {
- public:
-  OnlySegment(uint32_t number, const FurRay& ray, FurFilter* filter, float step)
-      : Query(ray, filter, step), number_(number) {}
-  bool wants(float distance, uint32_t number) const {
-    return number == number_ && Query::wants(distance, number);
-  }
-
- private:
-  uint32_t number_;
-};
-
 inline bool is_on_start(const FurRay& ray, uint32_t number) {
   return number - ray.start.first_segment < ray.start.segment_count;
 }
 
 /// Tests a curve whose distance to the ray may have several minima. Returns true when the ray is finished.
 template <class Query>
-bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query& query) {
+[[gnu::noinline]] bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query& query) {
   float us[3];
   const size_t count = nearest_parameters(lane, us);
   for (size_t i = 0; i < count; ++i) {

@@ -157,13 +157,13 @@ PELAGE_FUR_INLINE uint32_t test_rays(const FurRayBatch& rays, const RayLanes& la
   const V h = hn::CopySign(hn::Div(hn::Sqrt(distance2), radius), side);
   const V t = in_rays.depth(weights);
   const auto between = hn::And(hn::Gt(t, in_rays.load(rays.near)), hn::Lt(t, in_rays.load(rays.far)));
-  uint32_t met = bits_of<float>(hn::And(hn::Lt(distance2, hn::Mul(radius, radius)), between)) & single;
+  uint32_t in_reach = bits_of<float>(hn::And(hn::Lt(distance2, hn::Mul(radius, radius)), between)) & single;
   float us[FurRayBatch::kMax], ts[FurRayBatch::kMax], hs[FurRayBatch::kMax];
   hn::StoreU(u, kFloats, us);
   hn::StoreU(t, kFloats, ts);
   hn::StoreU(h, kFloats, hs);
-  for (; met != 0; met &= met - 1) {
-    const auto lane = static_cast<size_t>(std::countr_zero(met));
+  for (; in_reach != 0; in_reach &= in_reach - 1) {
+    const auto lane = static_cast<size_t>(std::countr_zero(in_reach));
     hits[at + lane] = {ts[lane], number, us[lane], hs[lane]};
   }
   return folded;

@@ -15,7 +15,6 @@ namespace pelage {
 class FurReference {
  public:
   static constexpr uint32_t kUnit = 16;
-  static constexpr uint32_t kMaxBlocks = 4;
   static constexpr uint64_t kLeafReach = uint64_t(kUnit) << 28;
   static constexpr uint64_t kNodeReach = uint64_t(kUnit) << 31;
 

@@ -1,10 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of fur_kernels.cpp: intersection of a ray with blocks of four segments.
 
+/// Everything about the four curves of a block that are near a ray.
+struct NearCurves {
+  FlatCurves flat;
+  V end_x, end_y, r[4];
+  Depths depths;
+};
+
+HWY_NOINLINE FurLane lane_of(const NearCurves& curves, uint32_t lane) {
+  alignas(16) float values[4];
+  const auto value = [&](V from) HWY_ATTR {
+    hn::Store(from, kFloats, values);
+    return values[lane];
+  };
+  FurLane result;
+  for (int i = 0; i < 4; ++i) {
+    result.x[i] = value(curves.flat.x[i]), result.y[i] = value(curves.flat.y[i]);
+    result.r[i] = value(curves.r[i]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    result.dx[i] = value(curves.flat.dx[i]), result.dy[i] = value(curves.flat.dy[i]);
+    result.dz[i] = value(curves.depths.differences[i]);
+  }
+  result.z = value(curves.depths.first);
+  result.end_x = value(curves.end_x), result.end_y = value(curves.end_y);
+  return result;
+}
+
 /// Tests the curves of one block. Returns true when the ray is finished.
-template <bool kWide, bool kMoving, class Query>
-PELAGE_FUR_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
-  const Block<kWide, kMoving> curves(block, ray);
+template <bool kWide, Motion kMotion, class Query>
+PELAGE_FUR_INLINE bool test_block(const std::byte* block, const FurRay& ray, int motion_keys, Query& query) {
+  const Block<kWide, kMotion> curves(block, ray, motion_keys);
   FlatCurves flat;
   flatten(curves, ray, flat);
 
@@ -32,75 +59,61 @@ PELAGE_FUR_INLINE bool test_block(const std::byte* block, const FurRay& ray, Que
 
   V r[4];
   curves.load_radii(r);
-  const uint32_t* numbers = reinterpret_cast<const FurBlockHeader*>(block)->number;
-  const auto lane_of = [&](uint32_t lane, const Depths& depths) HWY_ATTR {
-    alignas(16) float values[4];
-    FurLane result;
-    const auto value = [&](V from) HWY_ATTR {
-      hn::Store(from, kFloats, values);
-      return values[lane];
-    };
-    for (int i = 0; i < 4; ++i)
-      result.x[i] = value(flat.x[i]), result.y[i] = value(flat.y[i]), result.r[i] = value(r[i]);
-    for (int i = 0; i < 3; ++i) {
-      result.dx[i] = value(flat.dx[i]), result.dy[i] = value(flat.dy[i]);
-      result.dz[i] = value(depths.differences[i]);
-    }
-    result.z = value(depths.first);
-    result.end_x = value(end_x), result.end_y = value(end_y);
-    return result;
-  };
-
+  V u = zero, h = zero;
+  uint32_t hits = 0;
   if (single != 0) {
     const Cubic curve_x(flat.x[0], flat.dx), curve_y(flat.y[0], flat.dy);
-    const V u = solve(flat, curve_x, curve_y, minima.f0, minima.f5, single);
+    u = solve(flat, curve_x, curve_y, minima.f0, minima.f5, single);
     const V cx = curve_x.value(u), cy = curve_y.value(u);
     const V distance2 = dot(cx, cy, cx, cy);
-    const Weights weights(u);
-    const V radius = weights(r);
-    uint32_t hits = bits_of<float>(hn::Lt(distance2, hn::Mul(radius, radius))) & single;
+    const V radius = Weights(u)(r);
+    hits = bits_of<float>(hn::Lt(distance2, hn::Mul(radius, radius))) & single;
     if (hits != 0) {
-      const Depths depths(curves, ray);
       const V side = cross(Derivatives(flat.dx, u).first, Derivatives(flat.dy, u).first, cx, cy);
-      const V h = hn::CopySign(hn::Div(hn::Sqrt(distance2), radius), side);
-      alignas(16) float us[4], ts[4], hs[4];
-      hn::Store(depths.at(weights), kFloats, ts);
-      hn::Store(u, kFloats, us);
-      hn::Store(h, kFloats, hs);
-      for (; hits != 0; hits &= hits - 1) {
-        const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
-        const uint32_t number = numbers[lane];
-        if (!query.wants(ts[lane], number)) continue;
-        if (is_on_start(ray, number) && is_start(ray, number, lane_of(lane, depths), us[lane], ts[lane]))
-          continue;
-        if (query.take({ts[lane], number, us[lane], hs[lane]})) return true;
-      }
+      h = hn::CopySign(hn::Div(hn::Sqrt(distance2), radius), side);
     }
   }
-  if (HWY_LIKELY(folded == 0)) return false;
+  if ((hits | folded) == 0) return false;
+
   const Depths depths(curves, ray);
+  const uint32_t* numbers = reinterpret_cast<const FurBlockHeader*>(block)->number;
+  // A copy, so that the vectors above may stay in registers.
+  const auto lane_at = [&](uint32_t lane) HWY_ATTR {
+    return lane_of({flat, end_x, end_y, {r[0], r[1], r[2], r[3]}, depths}, lane);
+  };
+  alignas(16) float us[4], ts[4], hs[4];
+  hn::Store(u, kFloats, us);
+  hn::Store(depths.at(Weights(u)), kFloats, ts);
+  hn::Store(h, kFloats, hs);
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
+    const uint32_t number = numbers[lane];
+    if (!query.wants(ts[lane], number)) continue;
+    if (is_on_start(ray, number) && is_start(ray, number, lane_at(lane), us[lane], ts[lane])) continue;
+    if (query.take({ts[lane], number, us[lane], hs[lane]})) return true;
+  }
   for (uint32_t lanes = folded; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
-    if (test_folded(lane_of(lane, depths), numbers[lane], ray, query)) return true;
+    if (test_folded(lane_at(lane), numbers[lane], ray, query)) return true;
   }
   return false;
 }
 
 /// Wide blocks are rare.
-template <bool kMoving, class Query>
-HWY_NOINLINE bool test_wide_block(const std::byte* block, const FurRay& ray, Query& query) {
-  return test_block<true, kMoving>(block, ray, query);
+template <Motion kMotion, class Query>
+HWY_NOINLINE bool test_wide_block(const std::byte* block, const FurRay& ray, int motion_keys, Query& query) {
+  return test_block<true, kMotion>(block, ray, motion_keys, query);
 }
 
-template <bool kMoving, class Query>
+template <Motion kMotion, class Query>
 PELAGE_FUR_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurRay& ray,
                                  Query& query) {
   const std::byte* block = tree.leaves + leaf.leaf_offset();
   const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
   for (uint32_t i = 0; i < leaf.blocks(); ++i, block += size) {
     if (HWY_UNLIKELY(leaf.is_wide())) {
-      if (test_wide_block<kMoving>(block, ray, query)) return true;
-    } else if (test_block<false, kMoving>(block, ray, query)) {
+      if (test_wide_block<kMotion>(block, ray, tree.motion_keys, query)) return true;
+    } else if (test_block<false, kMotion>(block, ray, tree.motion_keys, query)) {
       return true;
     }
   }

@@ -11,17 +11,17 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kLanes = FurBlockHeader::kLanes;
+constexpr size_t kBlockPieces = FurBlockHeader::kLanes;
 constexpr size_t kBins = 16;
 constexpr size_t kSweep = 96;  // sets up to this size are swept exactly
-constexpr size_t kFewest =
+constexpr size_t kMinPieces =
     32;                       // min number of pieces on a side of a bin split, unless they fill their blocks
 constexpr int kDeepest = 40;  // max levels of binary splits by area; deeper ranges are halved
 constexpr float kFar = 1e30f;
 
-size_t blocks(size_t pieces) { return (pieces + kLanes - 1) / kLanes; }
+size_t blocks(size_t pieces) { return (pieces + kBlockPieces - 1) / kBlockPieces; }
 
-struct Bounds {
+struct PieceBounds {
   Four low = four(kFar), high = four(-kFar);
   void extend(const Four& l, const Four& h) {
     low = smaller(low, l);
@@ -33,8 +33,8 @@ struct Bounds {
   }
 };
 
-Bounds hull_of(const SnappedSegment& segment) {
-  Bounds hull;
+PieceBounds hull_of(const SnappedSegment& segment) {
+  PieceBounds hull;
   for (const std::array<float, 4>& p : segment) {
     const Four point{p[0], p[1], p[2], p[3]}, radius = four(p[3]);
     hull.extend(point - radius, point + radius);
@@ -114,7 +114,7 @@ class Builder {
   void split(const Range& range, Range& left, Range& right) {
     size_t middle = 0;
     if (range.depth >= kDeepest) {
-      middle = range.begin + blocks(range.size()) / 2 * kLanes;
+      middle = range.begin + blocks(range.size()) / 2 * kBlockPieces;
     } else if (range.size() <= kSweep) {
       middle = sweep(range);
     } else {
@@ -126,14 +126,14 @@ class Builder {
     right.area = bounds(right).area();
   }
 
-  Bounds bounds(const Range& range) const {
-    Bounds result;
+  PieceBounds bounds(const Range& range) const {
+    PieceBounds result;
     for (size_t i = range.begin; i < range.end; ++i) result.extend(pieces_[i].low, pieces_[i].high);
     return result;
   }
 
   size_t partition_bins(const Range& range) {
-    Bounds centres;
+    PieceBounds centres;
     for (size_t i = range.begin; i < range.end; ++i) {
       const Four centre = pieces_[i].low + pieces_[i].high;
       centres.extend(centre, centre);
@@ -145,7 +145,7 @@ class Builder {
       return __builtin_convertvector((piece.low + piece.high - centres.low) * scale,
                                      int __attribute__((vector_size(16))));
     };
-    Bounds bins[3][kBins];
+    PieceBounds bins[3][kBins];
     size_t counts[3][kBins] = {};
     for (size_t i = range.begin; i < range.end; ++i) {
       const auto bin = bins_of(pieces_[i]);
@@ -157,7 +157,7 @@ class Builder {
     }
     Split best;
     for (int axis = 0; axis < 3; ++axis) choose_bin(bins[axis], counts[axis], range.size(), axis, best);
-    if (best.axis < 0) return range.begin + blocks(range.size()) / 2 * kLanes;
+    if (best.axis < 0) return range.begin + blocks(range.size()) / 2 * kBlockPieces;
     const auto first = pieces_.begin() + static_cast<std::ptrdiff_t>(range.begin);
     const auto last = pieces_.begin() + static_cast<std::ptrdiff_t>(range.end);
     const auto middle = std::partition(first, last, [&](const FurPiece& piece) {
@@ -166,22 +166,22 @@ class Builder {
     return static_cast<size_t>(middle - pieces_.begin());
   }
 
-  static void choose_bin(const Bounds (&bins)[kBins], const size_t (&counts)[kBins], size_t all, int axis,
-                         Split& best) {
+  static void choose_bin(const PieceBounds (&bins)[kBins], const size_t (&counts)[kBins], size_t all,
+                         int axis, Split& best) {
     float right_area[kBins];
-    Bounds right;
+    PieceBounds right;
     for (size_t i = kBins; i-- > 1;) {
       right.extend(bins[i].low, bins[i].high);
       right_area[i] = right.area();
     }
-    Bounds left;
+    PieceBounds left;
     size_t count = 0;
     for (size_t i = 1; i < kBins; ++i) {
       left.extend(bins[i - 1].low, bins[i - 1].high);
       count += counts[i - 1];
       if (count == 0 || count == all) continue;
       // Without this condition, the number of half-filled blocks would be unbounded.
-      if (std::min(count, all - count) < kFewest && count % kLanes != 0) continue;
+      if (std::min(count, all - count) < kMinPieces && count % kBlockPieces != 0) continue;
       const float cost = left.area() * static_cast<float>(blocks(count)) +
                          right_area[i] * static_cast<float>(blocks(all - count));
       if (cost < best.cost) best = {cost, axis, i};
@@ -199,26 +199,26 @@ class Builder {
         keys[axis][i] = sortable(pieces[i].low[axis] + pieces[i].high[axis]) << 32 | i;
       }
       std::sort(keys[axis], keys[axis] + n);
-      float right_area[kSweep / kLanes + 1];
-      Bounds right;
-      for (size_t i = n; i-- > kLanes;) {
+      float right_area[kSweep / kBlockPieces + 1];
+      PieceBounds right;
+      for (size_t i = n; i-- > kBlockPieces;) {
         const FurPiece& piece = pieces[keys[axis][i] & 0xffffffff];
         right.extend(piece.low, piece.high);
-        if (i % kLanes == 0) right_area[i / kLanes] = right.area();
+        if (i % kBlockPieces == 0) right_area[i / kBlockPieces] = right.area();
       }
-      Bounds left;
-      for (size_t i = 0; i + kLanes < n; i += kLanes) {
-        for (size_t j = i; j < i + kLanes; ++j) {
+      PieceBounds left;
+      for (size_t i = 0; i + kBlockPieces < n; i += kBlockPieces) {
+        for (size_t j = i; j < i + kBlockPieces; ++j) {
           const FurPiece& piece = pieces[keys[axis][j] & 0xffffffff];
           left.extend(piece.low, piece.high);
         }
-        const size_t count = i + kLanes;
+        const size_t count = i + kBlockPieces;
         const float cost = left.area() * static_cast<float>(blocks(count)) +
-                           right_area[count / kLanes] * static_cast<float>(blocks(n - count));
+                           right_area[count / kBlockPieces] * static_cast<float>(blocks(n - count));
         if (cost < best.cost) best = {cost, axis, count};
       }
     }
-    if (best.axis < 0) return range.begin + blocks(n) / 2 * kLanes;
+    if (best.axis < 0) return range.begin + blocks(n) / 2 * kBlockPieces;
     FurPiece sorted[kSweep];
     for (size_t i = 0; i < n; ++i) sorted[i] = pieces[keys[best.axis][i] & 0xffffffff];
     std::copy_n(sorted, n, &pieces_[range.begin]);
@@ -256,8 +256,8 @@ std::vector<FurPiece> make_pieces(const SnappedStrands& strands, const FurFrame&
     Four low = four(0), high = four(0);
     for (int key = 0; key < strands.motion_keys(); ++key) {
       const SnappedSegment segment = strands.segment(place, key);
-      if (!SnappedStrands::is_drawable(segment)) return;
-      const Bounds hull = hull_of(frame(segment));
+      if (!SnappedStrands::is_visible(segment)) return;
+      const PieceBounds hull = hull_of(frame(segment));
       low = low + hull.low, high = high + hull.high;
     }
     pieces.emplace_back(low * share, high * share, number);
@@ -268,7 +268,7 @@ std::vector<FurPiece> make_pieces(const SnappedStrands& strands, const FurFrame&
 FurTopologySize topology_bound(size_t pieces) {
   // A split adds one partially filled block, unless it falls between blocks; that happens only where both
   // sides are large. Nodes above other nodes have four children, the others two blocks or more.
-  const size_t max = blocks(pieces) + pieces / kFewest;
+  const size_t max = blocks(pieces) + pieces / kMinPieces;
   return {2 * max / 3 + 1, max};
 }
 

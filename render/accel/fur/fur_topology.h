@@ -51,7 +51,7 @@ struct FurTopologySize {
 };
 FurTopologySize topology_bound(size_t pieces);
 
-/// Returns the pieces of all segments that can be rendered (see SnappedStrands::is_drawable()). The box of a
+/// Returns the pieces of all segments that can be rendered (see SnappedStrands::is_visible()). The box of a
 /// piece contains the Bezier points with their radii, along the axes of `frame`. Its sides are averaged over
 /// the motion keys.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, const FurFrame& frame);

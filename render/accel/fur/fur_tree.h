@@ -53,8 +53,8 @@ class FurTree {
   /// Allocates memory for a tree; `pool` as in FurTreeOptions.
   static PageBlock make_block(PagePool* pool, size_t bytes);
 
-  /// Returns the first hit in (near, far), in the order of FurHit::precedes(), that `filter` accepts; an
-  /// empty hit if there is none. A null `filter` accepts all hits.
+  /// Returns the nearest hit in (near, far) that `filter` accepts, or the one with the smallest segment
+  /// number of several equally near ones; an empty hit if there is none. A null `filter` accepts all hits.
   FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
   /// Whether there is any hit in (near, far) that `filter` accepts. A null `filter` accepts all hits.
   bool occluded(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;

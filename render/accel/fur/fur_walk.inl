@@ -38,9 +38,9 @@ PELAGE_FUR_INLINE void order(size_t count, uint32_t* references, float* enters) 
 /// Traverses the tree, roughly front to back. Prefetches what will be visited later: leaves are deferred
 /// until a few of them have accumulated, and where the order does not matter every node is deferred for one
 /// visit.
-template <bool kMoving, class Query>
+template <Motion kMotion, class Query>
 PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
-  const QuantisedSlabs<kMoving> slabs(ray);
+  const QuantisedSlabs<kMotion == Motion::kKeys> slabs(ray);
   uint32_t nodes[kStack], leaves[kDeferred + 8];
   float node_enters[kStack], leaf_enters[kDeferred + 8];
   nodes[0] = 0;
@@ -55,15 +55,15 @@ PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& q
       if (Query::kOrdered && next_enter > query.far()) continue;
       const std::byte* node = tree.nodes + FurReference::from_bits(next).node_offset();
       V enter = all(ray.near);
-      const auto met = slabs.intersect(node, enter, all(query.far()));
+      const auto entered = slabs.intersect(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));
       const auto is_leaf =
           hn::MaskFromVec(hn::BitCast(kFloats, hn::BroadcastSignBit(hn::BitCast(kInts, references))));
       const auto is_node = hn::RebindMask(kFloats, hn::Gt(hn::BitCast(kInts, references), hn::Zero(kInts)));
       const size_t more_nodes =
-          append(references, enter, hn::And(met, is_node), nodes + node_count, node_enters + node_count);
+          append(references, enter, hn::And(entered, is_node), nodes + node_count, node_enters + node_count);
       const size_t more_leaves =
-          append(references, enter, hn::And(met, is_leaf), leaves + leaf_count, leaf_enters + leaf_count);
+          append(references, enter, hn::And(entered, is_leaf), leaves + leaf_count, leaf_enters + leaf_count);
       if (Query::kOrdered && more_nodes > 1) order(more_nodes, nodes + node_count, node_enters + node_count);
       // Always all four: a loop with an early exit costs more than unnecessary prefetches.
       for (size_t i = 0; i < 4; ++i)
@@ -76,7 +76,7 @@ PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& q
     if (leaf_count == 0) return;
     for (size_t i = 0; i < leaf_count; ++i) {
       if (leaf_enters[i] > query.far()) continue;
-      if (test_leaf<kMoving>(tree, FurReference::from_bits(leaves[i]), ray, query)) return;
+      if (test_leaf<kMotion>(tree, FurReference::from_bits(leaves[i]), ray, query)) return;
     }
     leaf_count = 0;
   }

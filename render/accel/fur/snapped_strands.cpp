@@ -56,13 +56,13 @@ SnappedSegment SnappedStrands::segment(Place place, int key) const {
 V3f SnappedStrands::smooth_tangent(uint32_t strand, uint32_t joint, int key, const V3f& otherwise) const {
   const CurveBasis basis = strands_.basis();
   if (basis == CurveBasis::kLinear || basis == CurveBasis::kBezier) return otherwise;
-  const uint32_t knot = joint + (basis == CurveBasis::kBSpline ? 1 : 0);
-  if (knot == 0 || knot + 1 >= strands_.strand_points(strand)) return otherwise;
-  const size_t point = strands_.first_point(strand) + knot;
+  const uint32_t control_point = joint + (basis == CurveBasis::kBSpline ? 1 : 0);
+  if (control_point == 0 || control_point + 1 >= strands_.strand_points(strand)) return otherwise;
+  const size_t point = strands_.first_point(strand) + control_point;
   return (1.0f / 6) * (strands_.point(point + 1, key) - strands_.point(point - 1, key));
 }
 
-bool SnappedStrands::is_drawable(const SnappedSegment& segment) {
+bool SnappedStrands::is_visible(const SnappedSegment& segment) {
   for (const auto& point : segment) {
     for (float x : point) {
       if (!(std::abs(x) <= FurGrid::kReach)) return false;

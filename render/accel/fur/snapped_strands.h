@@ -58,7 +58,7 @@ class SnappedStrands {
   static size_t bytes(size_t strands) { return 3 * sizeof(uint32_t) * (strands + 1); }
   /// Whether all coordinates and radii of a segment at one key are finite and within FurGrid::kReach. A
   /// segment for which this is false at any key is omitted from trees and never hit.
-  static bool is_drawable(const SnappedSegment& segment);
+  static bool is_visible(const SnappedSegment& segment);
 
  private:
   Place search(uint32_t number) const;

@@ -9,7 +9,7 @@
 #include "tests/groom/cached_coats.h"
 #include "tests/support/recorded_results.h"
 
-namespace pelage {
+namespace pelage::growth_versions_test {
 namespace {
 
 class GrowthVersions : public CachedCoatTest {
@@ -256,4 +256,4 @@ TEST_F(GrowthVersions, FrozenAndPosedStrands) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::growth_versions_test

@@ -4,7 +4,7 @@
 #include "groom/operators/comb.h"
 #include "tests/groom/operator_harness.h"
 
-namespace pelage {
+namespace pelage::clump_test {
 namespace {
 
 using ClumpTest = OperatorTest;
@@ -101,4 +101,4 @@ TEST_F(ClumpTest, RefusesAbsurdSpacing) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::clump_test

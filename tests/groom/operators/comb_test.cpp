@@ -3,7 +3,7 @@
 
 #include "tests/groom/operator_harness.h"
 
-namespace pelage {
+namespace pelage::comb_test {
 namespace {
 
 using CombTest = OperatorTest;
@@ -52,4 +52,4 @@ TEST_F(CombTest, KeepsLengthsAndRises) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::comb_test

@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/accel/accel_scenes.h"
+#include "tests/render/accel/embree_accel.h"
 #include "tests/render/accel/ribbon_reference.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::accel_reference_test {
 namespace {
 
 constexpr uint64_t kRays = repetitions(700);
@@ -55,9 +55,8 @@ TEST_P(AccelAgainstReference, NearestHitsAgreeAwayFromEdges) {
   EmbreeOptions options;
   options.shape = c.shape;
   options.tessellation_rate = 16;
-  MemoryLedger ledger;
   TraceThread thread;
-  const EmbreeAccel accel({{&strands, 0, {}}}, {}, options, ledger, Workers(2));
+  const EmbreeAccel accel({{&strands, 0, {}}}, {}, options, Workers(2));
 
   uint64_t compared = 0, hits = 0;
   for (uint64_t i = 0; i < kRays; ++i) {
@@ -114,9 +113,8 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
     opacity.push_back(0.2f + 0.6f * unit_float(hash64(i, 99)));
   EmbreeOptions options;
   options.tessellation_rate = 16;
-  MemoryLedger ledger;
   TraceThread thread;
-  const EmbreeAccel accel({{&strands, 0, opacity}}, {}, options, ledger, Workers(2));
+  const EmbreeAccel accel({{&strands, 0, opacity}}, {}, options, Workers(2));
   EXPECT_FALSE(accel.opaque());
 
   uint64_t compared = 0, stacked = 0;
@@ -146,4 +144,4 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::accel_reference_test

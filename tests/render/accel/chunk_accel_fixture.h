@@ -97,11 +97,11 @@ class ChunkAccelTest : public testing::Test {
       ASSERT_EQ(ha.u, hb.u) << i;
       ASSERT_EQ(ha.v, hb.v) << i;
       if (ha.kind == HitKind::kStrand) {
-        ASSERT_EQ(ta.met.strand.arrays().points, tb.met.strand.arrays().points);
-        ASSERT_EQ(ta.met.strand.arrays().ids, tb.met.strand.arrays().ids);
+        ASSERT_EQ(ta.hit_geometry.strand.arrays().points, tb.hit_geometry.strand.arrays().points);
+        ASSERT_EQ(ta.hit_geometry.strand.arrays().ids, tb.hit_geometry.strand.arrays().ids);
         ++strands;
       } else if (ha.kind == HitKind::kSkin) {
-        ASSERT_EQ(ta.met.triangle.positions, tb.met.triangle.positions);
+        ASSERT_EQ(ta.hit_geometry.triangle.positions, tb.hit_geometry.triangle.positions);
         ++skins;
       }
       const float light = a.transmittance(ray, ta);

@@ -18,7 +18,7 @@ class ChunkAccelScenes : public ChunkAccelTest, public testing::WithParamInterfa
 
 TEST_P(ChunkAccelScenes, AnswersAsOneSceneOverEverything) {
   const TestChunks chunks = random_chunks(7, scene_of_kind(GetParam()));
-  const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
+  const auto oracle = chunks.oracle(CurveShape::kFlat);
   expect_same(*oracle, *make(chunks, chunks.bounds(8)), 1, repetitions(2500));        // boxes of parts
   expect_same(*oracle, *make(chunks, chunks.bounds(1, 1.4f)), 2, repetitions(2500));  // loose ones
   for (int keys : {1, 2})
@@ -40,7 +40,7 @@ TEST_F(ChunkAccelTest, RoundStrandsAnswerAsOneScene) {
       o.motion_keys = motion_keys;
       o.uniform = uniform;
       const TestChunks chunks = random_chunks(3, o);
-      const auto oracle = chunks.oracle(CurveShape::kRound, ledger_);
+      const auto oracle = chunks.oracle(CurveShape::kRound);
       ResidentChunksOptions options;
       options.chunk.shape = CurveShape::kRound;
       expect_same(*oracle, *make(chunks, chunks.bounds(8), options), 5, repetitions(3000));
@@ -63,7 +63,7 @@ TEST_F(ChunkAccelTest, EqualDistancesAreDecidedByStrandIdAcrossChunks) {
       const Hit hit = accel->closest(along_z(x), thread);
       ASSERT_EQ(hit.kind, HitKind::kStrand) << x;
       EXPECT_EQ(hit.strand_id, 3u) << x;
-      EXPECT_EQ(thread.met.strand.id(0), 3u);
+      EXPECT_EQ(thread.hit_geometry.strand.id(0), 3u);
     }
   }
 }
@@ -112,7 +112,7 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
   o.strands = 40;
   o.translucent = true;
   const TestChunks chunks = random_chunks(17, o);
-  const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
+  const auto oracle = chunks.oracle(CurveShape::kFlat);
   int64_t working_set = 0, fixed = 0;
   size_t largest = 0;
   {
@@ -234,7 +234,7 @@ TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
   RandomChunkOptions crowded;
   crowded.strands = 500;
   const TestChunks chunks = random_chunks(7, crowded);
-  const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
+  const auto oracle = chunks.oracle(CurveShape::kFlat);
   const FlushDenormals flush;
   const std::vector<ChunkBounds> parts = chunks.bounds(40), fine = chunks.measured_bounds(1);
   TraceThread a, b;

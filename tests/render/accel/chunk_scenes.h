@@ -11,10 +11,10 @@
 #include "geom/curve_bounds.h"
 #include "procedurals/bounds/segment_parts.h"
 #include "render/accel/chunk_accel.h"
-#include "render/accel/embree_accel.h"
 #include "render/accel/part_bounds.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/accel/accel_scenes.h"
+#include "tests/render/accel/embree_accel.h"
 
 namespace pelage {
 
@@ -56,7 +56,7 @@ class TestChunks final : public ChunkGrower {
 
   /// The same things in one eager scene. It has the layout of chunks: with AVX2, the last bits of Embree's
   /// answers depend on the layout.
-  std::unique_ptr<EmbreeAccel> oracle(CurveShape shape, MemoryLedger& ledger) const {
+  std::unique_ptr<EmbreeAccel> oracle(CurveShape shape) const {
     std::vector<AccelStrands> strands;
     std::vector<const SkinMesh*> skins;
     for (const ChunkContents& chunk : contents) {
@@ -69,7 +69,7 @@ class TestChunks final : public ChunkGrower {
     EmbreeOptions options;
     options.shape = shape;
     options.compact = true;
-    return std::make_unique<EmbreeAccel>(std::move(strands), std::move(skins), options, ledger, Workers(2));
+    return std::make_unique<EmbreeAccel>(std::move(strands), std::move(skins), options, Workers(2));
   }
 
   /// Boxes of every chunk: of its parts, or one box around all that is `slack` times too large.

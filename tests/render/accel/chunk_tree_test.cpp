@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 
-namespace pelage {
+namespace pelage::chunk_tree_test {
 namespace {
 
 float number(uint64_t a, uint64_t b) { return signed_float(hash64(a, b, random_use("tree test"))); }
@@ -109,7 +109,7 @@ TEST_P(ChunkTreeTest, FindsEveryChunkThatARayMeetsAndFewOthers) {
       ASSERT_TRUE(may || !found) << i << " " << c;
     }
     ASSERT_LE(met.at(static_cast<uint32_t>(chunk)), distance * (1 + 1e-5f)) << i;
-    EXPECT_EQ(met, walk(tree, ray, ChunkWalk::Order::kLongestFirst));
+    EXPECT_EQ(hit_geometry, walk(tree, ray, ChunkWalk::Order::kLongestFirst));
   }
 }
 
@@ -186,4 +186,4 @@ TEST(ChunkTree, HoldsNothingWhereNothingIs) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::chunk_tree_test

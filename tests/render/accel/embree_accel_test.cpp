@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/embree_accel.h"
+#include "tests/render/accel/embree_accel.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "render/accel/flush_denormals.h"
 #include "tests/geom/random_strands.h"
@@ -19,10 +18,9 @@ class EmbreeAccelTest : public testing::Test {
  protected:
   EmbreeAccel make(std::vector<AccelStrands> strands, std::vector<const SkinMesh*> skins = {},
                    const EmbreeOptions& options = {}) {
-    return EmbreeAccel(std::move(strands), std::move(skins), options, ledger_, workers_);
+    return EmbreeAccel(std::move(strands), std::move(skins), options, workers_);
   }
 
-  MemoryLedger ledger_;
   TraceThread thread_;
   Workers workers_{2};
   FlushDenormals flush_;
@@ -111,7 +109,7 @@ TEST_F(EmbreeAccelTest, HitsDoNotDependOnThreadsOrTreeLayout) {
   EmbreeOptions compact;
   compact.compact = true;
   const EmbreeAccel small = make({{&strands, 0, {}}}, {}, compact);
-  const EmbreeAccel single({{&strands, 0, {}}}, {}, {}, ledger_, Workers(1));
+  const EmbreeAccel single({{&strands, 0, {}}}, {}, {}, Workers(1));
   int hits = 0;
   for (uint64_t i = 0; i < 5000; ++i) {
     const Ray ray = random_ray(31, i);
@@ -174,26 +172,6 @@ TEST_F(EmbreeAccelTest, RaysThatAreNotFiniteMeetNothing) {
       EXPECT_EQ(accel.transmittance(ray, thread_), 1.0f);
     }
   }
-}
-
-TEST_F(EmbreeAccelTest, MemoryIsChargedLimitedAndGivenBack) {
-  RandomStrandOptions o;
-  o.strands = 2000;
-  const Strands strands = random_strands(2, o);
-  {
-    const EmbreeAccel accel = make({{&strands, 0, {}}});
-    EXPECT_GT(ledger_.current(MemoryTag::kChunks), static_cast<int64_t>(strands.point_count() * 16));
-  }
-  EXPECT_EQ(ledger_.current(MemoryTag::kChunks), 0);
-  EmbreeOptions options;
-  options.memory_limit = 200 * 1024;
-  try {
-    make({{&strands, 0, {}}}, {}, options);
-    FAIL() << "a limit below the size of the tree was not noticed";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-  }
-  EXPECT_EQ(ledger_.current(MemoryTag::kChunks), 0);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST_F(FurChunkTest, EqualDistancesAreDecidedByStrandIdAcrossChunks) {
       const Hit hit = accel->closest(along_z(x), thread);
       ASSERT_EQ(hit.kind, HitKind::kStrand) << x;
       EXPECT_EQ(hit.strand_id, 3u) << x;
-      EXPECT_EQ(thread.met.strand.id(0), 3u);
+      EXPECT_EQ(thread.hit_geometry.strand.id(0), 3u);
     }
   }
 }
@@ -155,10 +155,10 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
       const Ray ray = random_ray(8, i);
       const Hit hit = accel->closest(ray, thread);
       if (hit.kind != HitKind::kStrand) continue;
-      const Strands& met = thread.met.strand;
+      const Strands& strand_of_hit = thread.hit_geometry.strand;
       ASSERT_EQ(met.id(0), hit.strand_id);
       // The ray passes the axis at h radii.
-      const StrandPoint at = strand_point(met, 0, hit.segment, hit.u, ray.time);
+      const StrandPoint at = strand_point(hit_geometry, 0, hit.segment, hit.u, ray.time);
       const V3f beside = ray.origin + hit.distance * ray.direction - at.position;
       EXPECT_NEAR(beside.length(), std::abs(hit.v) * at.radius, 1e-4f + 0.02f * at.radius);
       // Among the strands of its id, one is the same.
@@ -175,7 +175,7 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
           for (uint32_t k = 0; k < segments; ++k) {
             for (float time : {0.0f, 0.4f, 1.0f}) {
               const CubicSegment a = bezier_segment_at(fur->strands, s, k, time),
-                                 b = bezier_segment_at(met, 0, k, time);
+                                 b = bezier_segment_at(hit_geometry, 0, k, time);
               for (size_t p = 0; p < 4; ++p) {
                 // Inner points are the ends plus two snapped differences.
                 const V3f d = (p == 0 || p == 3 ? 1.0f : 0.5f) * (a.p[p] - b.p[p]);

@@ -8,7 +8,7 @@
 #include "base/hash.h"
 #include "tests/geom/random_strands.h"
 
-namespace pelage {
+namespace pelage::packed_strands_test {
 namespace {
 
 float number(uint64_t a, uint64_t b) { return unit_float(hash64(a, b, random_use("packed test"))); }
@@ -201,4 +201,4 @@ TEST(PackedValues, EveryPrecisionGivesTheSameBack) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::packed_strands_test

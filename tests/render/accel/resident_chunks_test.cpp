@@ -99,7 +99,7 @@ TEST_P(ResidentChunksScenes, HitsNameTheirStrands) {
       skins += hit.kind == HitKind::kSkin;
       if (!handle) continue;
       accel->chunks().copy_strand(handle, 0, strand);
-      ASSERT_TRUE(are_equal(strand, thread.met.strand)) << i;
+      ASSERT_TRUE(are_equal(strand, thread.hit_geometry.strand)) << i;
       EXPECT_EQ(accel->chunks().part(handle.chunk), hit.part);
       const StrandKey key = accel->chunks().visit(
           handle.chunk, 0, [&](const ChunkGeometry& chunk) { return chunk.strand_key(handle.index); });
@@ -119,7 +119,7 @@ TEST_P(ResidentChunksScenes, HitsNameTheirStrands) {
   }
   // One scene over everything has no chunks.
   TraceThread thread;
-  const auto whole = chunks.oracle(CurveShape::kFlat, ledger_);
+  const auto whole = chunks.oracle(CurveShape::kFlat);
   for (uint64_t i = 0; i < 50; ++i) EXPECT_FALSE(whole->closest(random_ray(8, i), thread).handle());
 }
 

@@ -11,7 +11,7 @@
 #include "render/fibre/chiang.h"
 #include "tests/render/path/path_scene.h"
 
-namespace pelage {
+namespace pelage::fibre_bundle_test {
 namespace {
 
 constexpr int kFibres = 120, kBounces = 12, kRuns = 8, kPixels = 24, kSamples = 32;
@@ -188,4 +188,4 @@ TEST(FibreBundle, ScattersAsByBruteForce) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::fibre_bundle_test

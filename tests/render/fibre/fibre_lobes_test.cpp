@@ -10,7 +10,7 @@
 #include "tests/render/random.h"
 #include "tests/support/chi_square.h"
 
-namespace pelage {
+namespace pelage::fibre_lobes_test {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -170,4 +170,4 @@ TEST(Absorption, OfColoursAndPigments) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::fibre_lobes_test

@@ -4,7 +4,7 @@
 
 #include "tests/render/fibre/fibre_models.h"
 
-namespace pelage {
+namespace pelage::fibre_model_test {
 namespace {
 
 struct Variation {
@@ -293,4 +293,4 @@ TEST(FibreModels, PigmentsAddToAbsorptionAndColorStepsBack) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::fibre_model_test

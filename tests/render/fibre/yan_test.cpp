@@ -118,7 +118,7 @@ TEST(Yan, ScatteredLightGoesWhereTracedLightGoes) {
           ++azimuth[bin(0.5f + std::atan2(path.wi.z, path.wi.y) / (2 * kPi))];
         }
         const MedullaCrossing c(params.optics(), std::sin(theta), std::cos(theta), h);
-        const SampledAngles a = TabulatedScatter(*params.made, std::sin(theta), h).draw(random.unit3());
+        const SampledAngles a = TabulatedScatter(*params.made, std::sin(theta), h).sample(random.unit3());
         drawn += c.scattered();
         table_sine[bin(0.5f * (a.sin_theta + 1))] += c.scattered();
         table_azimuth[bin(0.5f + wrapped_angle(a.phi) / (2 * kPi))] += c.scattered();

@@ -8,7 +8,7 @@
 
 #include "base/hash.h"
 
-namespace pelage {
+namespace pelage::film_sums_test {
 namespace {
 
 constexpr int kWidth = 37, kHeight = 21;  // three tiles by two, the last ones cut off
@@ -119,4 +119,4 @@ TEST(FilmSums, OrderOfTilesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::film_sums_test

@@ -78,7 +78,10 @@ TEST(Film, AveragesSamplesAndDropsWhatIsNotFinite) {
   parts[0].z = kInfinitelyFar;
   EXPECT_FALSE(film.add(2, 1, sample, parts));
 
-  EXPECT_EQ(film.samples(2, 1), 2u);
+  EXPECT_EQ(film.samples(2, 1), 4u) << "those that were dropped count";
+  EXPECT_EQ(film.min_samples({2, 1, 3, 2}), 4u);
+  EXPECT_EQ(film.min_samples({0, 0, 3, 2}), 0u);
+  EXPECT_EQ(film.sample_sum({0, 0, 3, 2}), 4);
   EXPECT_EQ(film.radiance(2, 1), Rgb(2, 1, 1.5f));
   EXPECT_EQ(film.alpha(2, 1), 0.5f);
   EXPECT_EQ(film.layer(2, 1, 3), Rgb(2, 1, 1.5f));

@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/job.h"
 
-namespace pelage {
+namespace pelage::frame_loop_test {
 namespace {
 
 /// Samples of random brightness at random places in their pixels.
@@ -77,7 +77,7 @@ Film film_after(const std::vector<uint32_t>& passes, FilmLayers layers, int thre
   FrameLoop loop(samples, {workers, ledger, progress}, film, frame_window(kWidth, kHeight, {}, layers.splat),
                  clock);
   for (const uint32_t count : passes) {
-    EXPECT_EQ(loop.pass([count](size_t, uint32_t) { return count; }, count == 1), PassEnd::kDone);
+    EXPECT_EQ(loop.pass({[count](size_t) { return count; }, {}, count == 1}), PassEnd::kDone);
   }
   return film;
 }
@@ -121,7 +121,7 @@ TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {
         FrameLoop loop(samples, {workers, ledger, moments}, film,
                        frame_window(kWidth, kHeight, {}, layers.splat), clock, &moments);
         for (const uint32_t count : {1u, 3u, 11u}) {
-          end = loop.pass([count](size_t, uint32_t) { return count; }, count == 1);
+          end = loop.pass({[count](size_t) { return count; }, {}, count == 1});
           if (end != PassEnd::kDone) break;
         }
         kept = moments.kept();
@@ -138,4 +138,4 @@ TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::frame_loop_test

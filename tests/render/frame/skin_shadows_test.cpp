@@ -52,14 +52,14 @@ Outcomes shoot(const SkinMesh& mesh, uint64_t rays) {
   const float size = 0.5f * box.size().length();
   const FlushDenormals flush;
   TraceThread thread;
-  HitGeometry met;
+  HitGeometry hit_geometry;
   Outcomes outcomes;
   for (uint64_t i = 0; i < rays; ++i) {
     SampleStream stream(5, static_cast<uint32_t>(i), static_cast<uint32_t>(i >> 32), 0);
     const auto triangle =
         std::min(static_cast<size_t>(stream.next1d() * static_cast<float>(mesh.triangle_count())),
                  mesh.triangle_count() - 1);
-    met.triangle.assign_triangle(mesh, triangle);
+    hit_geometry.triangle.assign_triangle(mesh, triangle);
     const V2f u = stream.next2d();
     Hit hit;
     hit.kind = HitKind::kSkin;
@@ -68,7 +68,7 @@ Outcomes shoot(const SkinMesh& mesh, uint64_t rays) {
     Ray ray;
     ray.time = i % 3 == 0 ? 0.0f : stream.next1d();
     V3f corner[3];
-    for (size_t c = 0; c < 3; ++c) corner[c] = position_at(met.triangle, c, ray.time);
+    for (size_t c = 0; c < 3; ++c) corner[c] = position_at(hit_geometry.triangle, c, ray.time);
     const V3f normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
     // Most heights are those of fur; some points are below the skin.
     const V2f h = stream.next2d();
@@ -76,7 +76,7 @@ Outcomes shoot(const SkinMesh& mesh, uint64_t rays) {
     ray.origin = (1 - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2] + height * normal;
     ray.direction = uniform_direction(stream.next2d());
     if (i % 4 == 0) ray.far = 4 * size * stream.next1d();
-    const SkinShadow shadow = shadows.below(hit, met, ray.time);
+    const SkinShadow shadow = shadows.below(hit, hit_geometry, ray.time);
     const bool proved = shadow.ball.radius > 0 && shadow.blocks(ray.origin, ray.direction, ray.far);
     const bool blocked = !(geometry->accel().transmittance(ray, thread) > 0);
     outcomes.blocked += blocked;

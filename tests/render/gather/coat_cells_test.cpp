@@ -116,15 +116,15 @@ TEST(GatherPointKeys, OnlyThinStrandsUseCells) {
   const RenderScene scene = key_scene::make({});
   const auto same_key = [&](float radius, uint32_t samples) {
     const GatherPointKeys keys(scene, samples);
-    HitGeometry met;
-    met.strand = one_strand({{0, 0, 0}, {0.05f, 0, 0}, {0.1f, 0, 0}}, radius);  // 2.5 pixels long
+    HitGeometry hit_geometry;
+    hit_geometry.strand = one_strand({{0, 0, 0}, {0.05f, 0, 0}, {0.1f, 0, 0}}, radius);  // 2.5 pixels long
     Hit a = hit_on(0.5f), b = a;
     b.strand_id = a.strand_id + 1;
     int same = 0;
     for (uint64_t i = 0; i < 200; ++i) {
       const V2f random(unit_float(hash64(i, 1)), unit_float(hash64(i, 2)));
-      same += key_scene::key_of(keys, a, met, random).gather_point ==
-                      key_scene::key_of(keys, b, met, random).gather_point
+      same += key_scene::key_of(keys, a, hit_geometry, random).gather_point ==
+                      key_scene::key_of(keys, b, hit_geometry, random).gather_point
                   ? 1
                   : 0;
     }
@@ -137,12 +137,12 @@ TEST(GatherPointKeys, OnlyThinStrandsUseCells) {
   apart.cells = false;
   const RenderScene without = key_scene::make(apart);
   const GatherPointKeys keys(without, 1);
-  HitGeometry met;
-  met.strand = one_strand({{0, 0, 0}, {0.1f, 0, 0}}, 1e-4f);
+  HitGeometry hit_geometry;
+  hit_geometry.strand = one_strand({{0, 0, 0}, {0.1f, 0, 0}}, 1e-4f);
   Hit a = hit_on(0.5f), b = a;
   b.strand_id = a.strand_id + 1;
-  EXPECT_NE(key_scene::key_of(keys, a, met, {0, 0}).gather_point,
-            key_scene::key_of(keys, b, met, {0, 0}).gather_point);
+  EXPECT_NE(key_scene::key_of(keys, a, hit_geometry, {0, 0}).gather_point,
+            key_scene::key_of(keys, b, hit_geometry, {0, 0}).gather_point);
 }
 
 }  // namespace

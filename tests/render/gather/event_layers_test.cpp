@@ -10,7 +10,7 @@
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
 
-namespace pelage {
+namespace pelage::event_layers_test {
 namespace {
 
 constexpr size_t kLights = 2;
@@ -221,4 +221,4 @@ TEST(EventLayersOfGather, HaveTheMeansOfPaths) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::event_layers_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "render/gather/gather_loop.h"
+#include "render/gather/gather_tracer.h"
 #include "render/light/far_light_samples.h"
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
@@ -75,7 +75,7 @@ TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   scene.render.gather.cache = false;  // its memory has the same tag
   const FrameResult free = scene.run({}, 3);
-  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
+  const size_t tile = GatherTracer::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
   // One light is an environment: 32 bytes per stored point (FarLightSamples::bytes()).
@@ -186,19 +186,19 @@ TEST(GatherIntegrator, CountsGatherPointsAndTheirSamples) {
   const GatherPointStatistics alone = scene.run({}, 1).statistics.gather_points;
   EXPECT_GT(alone.samples, 0);
   EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "no more than the samples of the frame";
-  EXPECT_EQ(alone.gather_points, alone.samples);
+  EXPECT_EQ(alone.count, alone.samples);
   scene.render.gather.reuse = true;
   const GatherPointStatistics shared = scene.run({}, 1).statistics.gather_points;
   EXPECT_EQ(shared.samples, alone.samples);
-  EXPECT_GT(shared.gather_points, 0);
-  EXPECT_LT(shared.gather_points, shared.samples / 2);
-  EXPECT_EQ(scene.run({}, 4).statistics.gather_points.gather_points, shared.gather_points);
+  EXPECT_GT(shared.count, 0);
+  EXPECT_LT(shared.count, shared.samples / 2);
+  EXPECT_EQ(scene.run({}, 4).statistics.gather_points.count, shared.count);
 }
 
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {
   GatherScene scene;
   scene.image.width = scene.image.height = 20;
-  const uint32_t max = GatherTile::max_samples(scene.lights.size());
+  const uint32_t max = GatherTracer::max_samples(scene.lights.size());
   scene.render.samples = static_cast<int>(max + 3);
   const FrameResult result = scene.run();
   EXPECT_EQ(result.samples, max + 3);

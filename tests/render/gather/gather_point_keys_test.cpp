@@ -20,18 +20,18 @@ constexpr uint32_t kSamples = 64;
 
 /// A straight strand of `length` across the view.
 HitGeometry strand(float length) {
-  HitGeometry met;
-  met.strand = one_strand({{0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}}, 0.01f);
+  HitGeometry hit_geometry;
+  hit_geometry.strand = one_strand({{0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}}, 0.01f);
   return met;
 }
 
 /// Gather points that a strand has within the given part of its length, and how often each is chosen.
-std::map<uint64_t, int> gather_points(const GatherPointKeys& keys, const HitGeometry& met, float from,
-                                      float to) {
+std::map<uint64_t, int> gather_points(const GatherPointKeys& keys, const HitGeometry& hit_geometry,
+                                      float from, float to) {
   std::map<uint64_t, int> result;
   for (uint64_t i = 0; i < 4000; ++i) {
     const float place = from + (to - from) * unit_float(hash64(i, 1));
-    ++result[key_of(keys, hit_on(place), met, {unit_float(hash64(i, 2)), 0}).gather_point];
+    ++result[key_of(keys, hit_on(place), hit_geometry, {unit_float(hash64(i, 2)), 0}).gather_point];
   }
   return result;
 }
@@ -50,10 +50,10 @@ TEST(GatherPointKeys, AreAsFarApartAsTheSpacingAtMost) {
 TEST(GatherPointKeys, InterpolateLinearlyOnAverage) {
   const RenderScene scene = key_scene::make({});
   const GatherPointKeys keys(scene, kSamples);
-  const HitGeometry met = strand(0.5f);  // gather points at 0, 1/4, 1/2, 3/4, 1
-  const auto around = gather_points(keys, met, 0.299f, 0.301f);
+  const HitGeometry hit_geometry = strand(0.5f);  // gather points at 0, 1/4, 1/2, 3/4, 1
+  const auto around = gather_points(keys, hit_geometry, 0.299f, 0.301f);
   ASSERT_EQ(around.size(), 2u);
-  const uint64_t before = key_of(keys, hit_on(0.25f), met, {0, 0}).gather_point;
+  const uint64_t before = key_of(keys, hit_on(0.25f), hit_geometry, {0, 0}).gather_point;
   EXPECT_NEAR(around.at(before) / 4000.0, 0.8, 0.03) << "a fifth of the way";
 }
 
@@ -61,13 +61,13 @@ TEST(GatherPointKeys, APatchIsAnEighthOfAStrandOrTwoGatherPoints) {
   const RenderScene scene = key_scene::make({});
   const GatherPointKeys keys(scene, kSamples);
   const auto patches = [&](float length) {
-    const HitGeometry met = strand(length);
+    const HitGeometry hit_geometry = strand(length);
     std::set<uint64_t> result;
     for (uint32_t i = 0; i <= 4000; ++i)
-      result.insert(key_of(keys, hit_on(static_cast<float>(i) / 4000), met, {0.5f, 0}).patch);
+      result.insert(key_of(keys, hit_on(static_cast<float>(i) / 4000), hit_geometry, {0.5f, 0}).patch);
     return result.size();
   };
-  EXPECT_EQ(patches(2), 8u) << "16 knots";
+  EXPECT_EQ(patches(2), 8u) << "16 gather points";
   EXPECT_EQ(patches(4), 17u) << "32 parts of 3.1 pixels";
   EXPECT_LE(patches(0.05f), 2u);
 }
@@ -94,46 +94,47 @@ TEST(RecentGatherPoints, KeepsTheGatherPointsOfEachStrand) {
 TEST(GatherPointKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
   const RenderScene scene = key_scene::make({});
   const GatherPointKeys keys(scene, kSamples);
-  const HitGeometry met = strand(2);
+  const HitGeometry hit_geometry = strand(2);
   const Hit hit = hit_on(0.4f);
-  const GatherPointKey key = key_of(keys, hit, met, {0.3f, 0});
+  const GatherPointKey key = key_of(keys, hit, hit_geometry, {0.3f, 0});
   Hit elsewhere = hit;
   elsewhere.start = {12, 34, 2, 0.8f};
   elsewhere.strand_index = 99;
   elsewhere.distance = 5;
-  EXPECT_EQ(key_of(keys, elsewhere, met, {0.3f, 0}).gather_point, key.gather_point);
+  EXPECT_EQ(key_of(keys, elsewhere, hit_geometry, {0.3f, 0}).gather_point, key.gather_point);
   Hit other = hit;
   other.strand_id = 8;
-  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).gather_point, key.gather_point);
-  EXPECT_EQ(key_of(keys, other, met, {0.3f, 0}).zone, key.zone);
+  EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).gather_point, key.gather_point);
+  EXPECT_EQ(key_of(keys, other, hit_geometry, {0.3f, 0}).zone, key.zone);
   other = hit;
   other.part = 4;
-  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).gather_point, key.gather_point);
-  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).zone, key.zone);
+  EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).gather_point, key.gather_point);
+  EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).zone, key.zone);
 }
 
 /// A triangle of a face whose unit square is 2 x 1 units of space.
 HitGeometry skin_triangle() {
-  HitGeometry met;
-  met.triangle.positions = {0, 0, 0, 1, 0, 0, 0, 0.5f, 0};
-  met.triangle.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-  met.triangle.triangles = {0, 1, 2};
-  met.triangle.vertex_uv = {V2f(0, 0), V2f(0.5f, 0), V2f(0, 0.5f)};
-  met.triangle.faces = {5};
+  HitGeometry hit_geometry;
+  hit_geometry.triangle.positions = {0, 0, 0, 1, 0, 0, 0, 0.5f, 0};
+  hit_geometry.triangle.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+  hit_geometry.triangle.triangles = {0, 1, 2};
+  hit_geometry.triangle.vertex_uv = {V2f(0, 0), V2f(0.5f, 0), V2f(0, 0.5f)};
+  hit_geometry.triangle.faces = {5};
   return met;
 }
 
 TEST(GatherPointKeys, AFaceOfASkinHasAGridOfGatherPoints) {
   const RenderScene scene = key_scene::make({});
   const GatherPointKeys keys(scene, kSamples);
-  const HitGeometry met = skin_triangle();
+  const HitGeometry hit_geometry = skin_triangle();
   std::map<uint64_t, int> found;
   Hit hit;
   hit.kind = HitKind::kSkin;
   for (uint64_t i = 0; i < 20000; ++i) {
     hit.u = unit_float(hash64(i, 1));
     hit.v = (1 - hit.u) * unit_float(hash64(i, 2));
-    ++found[key_of(keys, hit, met, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))}).gather_point];
+    ++found[key_of(keys, hit, hit_geometry, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))})
+                .gather_point];
   }
   // The face is 50 x 25 pixels: 32 x 16 parts of at most 2 pixels. Half of its u and v, below the diagonal:
   // 17 x 9 gather points, of which about half are near the triangle.

@@ -40,10 +40,10 @@ inline Hit hit_on(float place) {
 }
 
 /// GatherPointKeys::of() of a thread that has met no strand before.
-inline GatherPointKey key_of(const GatherPointKeys& keys, const Hit& hit, const HitGeometry& met,
+inline GatherPointKey key_of(const GatherPointKeys& keys, const Hit& hit, const HitGeometry& hit_geometry,
                              const V2f& random) {
   RecentGatherPoints recent;
-  return keys.of(hit, met, random, recent);
+  return keys.of(hit, hit_geometry, random, recent);
 }
 
 }  // namespace pelage::key_scene

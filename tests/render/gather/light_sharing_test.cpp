@@ -10,7 +10,7 @@
 #include "render/sampling/pixel_moments.h"
 #include "render/sampling/systematic_choice.h"
 
-namespace pelage {
+namespace pelage::light_sharing_test {
 namespace {
 
 /// Points with unoccluded light from two light points of each of two lights, some of which reach them.
@@ -161,4 +161,4 @@ TEST(LightSharing, IsRightOnAverageAndAGuessMakesItLessNoisy) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::light_sharing_test

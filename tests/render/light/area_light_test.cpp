@@ -7,7 +7,7 @@
 #include "tests/render/random.h"
 #include "tests/render/sphere_statistics.h"
 
-namespace pelage {
+namespace pelage::area_light_test {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -268,4 +268,4 @@ TEST(AreaLight, RectanglesShineToTheirSideOnly) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::area_light_test

@@ -9,7 +9,7 @@
 #include "tests/render/sphere_statistics.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::environment_light_test {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
@@ -95,14 +95,15 @@ TEST(EnvironmentMap, DrawsTexelsInProportionUniformlyInside) {
   constexpr int kSamples = static_cast<int>(repetitions(400000));
   int astray = 0;
   for (int i = 0; i < kSamples; ++i) {
-    const EnvironmentMap::Draw draw = map.sample(random.unit2());
-    const EnvironmentMap::Texel found = map.texel_of(draw.direction);
-    astray += found.x != draw.texel.x || found.y != draw.texel.y;
-    const double top = std::cos(kPiD * draw.texel.y / 24), bottom = std::cos(kPiD * (draw.texel.y + 1) / 24);
-    const double turn = std::atan2(draw.direction.x, -draw.direction.z) / (2 * kPiD) + 0.5;
-    const int right = turn * 40 - draw.texel.x > 0.5;
-    const int low = (draw.direction.y - top) / (bottom - top) > 0.5;
-    observed[(draw.texel.y * 40 + draw.texel.x) * 4 + 2 * low + right] += 1;
+    const EnvironmentMap::Sample sample = map.sample(random.unit2());
+    const EnvironmentMap::Texel found = map.texel_of(sample.direction);
+    astray += found.x != sample.texel.x || found.y != sample.texel.y;
+    const double top = std::cos(kPiD * sample.texel.y / 24),
+                 bottom = std::cos(kPiD * (sample.texel.y + 1) / 24);
+    const double turn = std::atan2(sample.direction.x, -sample.direction.z) / (2 * kPiD) + 0.5;
+    const int right = turn * 40 - sample.texel.x > 0.5;
+    const int low = (sample.direction.y - top) / (bottom - top) > 0.5;
+    observed[(sample.texel.y * 40 + sample.texel.x) * 4 + 2 * low + right] += 1;
   }
   double sum = 0;
   for (int y = 0; y < 24; ++y) {
@@ -137,9 +138,9 @@ TEST(EnvironmentMap, SingleTexelsAreFoundEvenAtThePoles) {
     const EnvironmentMap map(textured(image), Rgb(1));
     TestRandom random(3);
     for (int i = 0; i < 2000; ++i) {
-      const EnvironmentMap::Draw draw = map.sample(random.unit2());
-      ASSERT_EQ(draw.texel.x, 10);
-      ASSERT_EQ(draw.texel.y, row);
+      const EnvironmentMap::Sample sample = map.sample(random.unit2());
+      ASSERT_EQ(sample.texel.x, 10);
+      ASSERT_EQ(sample.texel.y, row);
     }
     EXPECT_NEAR(map.pdf({10, row}) * map.texel_solid_angle(row), 1, 1e-6);
     EXPECT_EQ(map.pdf({11, row}), 0);
@@ -162,12 +163,12 @@ TEST(EnvironmentMap, CellsOfManyTexelsChangeNoDensity) {
     std::vector<int> drawn(static_cast<size_t>(image.width * image.height));
     int different = 0;
     for (int i = 0; i < kCount; ++i) {
-      const EnvironmentMap::Draw draw = map.sample(random.unit2());
-      ASSERT_GT(map.pdf(draw.texel), 0);
-      ASSERT_NEAR(map.pdf(draw.texel) / full.pdf(draw.texel), 1, 1e-5);
-      ++drawn[static_cast<size_t>(draw.texel.y * image.width + draw.texel.x)];
-      const EnvironmentMap::Texel found = map.texel_of(draw.direction);
-      different += found.x != draw.texel.x || found.y != draw.texel.y;
+      const EnvironmentMap::Sample sample = map.sample(random.unit2());
+      ASSERT_GT(map.pdf(sample.texel), 0);
+      ASSERT_NEAR(map.pdf(sample.texel) / full.pdf(sample.texel), 1, 1e-5);
+      ++drawn[static_cast<size_t>(sample.texel.y * image.width + sample.texel.x)];
+      const EnvironmentMap::Texel found = map.texel_of(sample.direction);
+      different += found.x != sample.texel.x || found.y != sample.texel.y;
     }
     EXPECT_LE(different, 40) << "rounding at edges of texels only";
     double chi = 0;
@@ -327,4 +328,4 @@ TEST(EnvironmentLight, OneChannelIsGrey) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::environment_light_test

@@ -9,7 +9,7 @@
 #include "tests/render/random.h"
 #include "tests/support/data.h"
 
-namespace pelage {
+namespace pelage::light_params_test {
 namespace {
 
 Value number(float v) { return Value::scalar({"scene.yaml", 3, 5}, std::to_string(v)); }
@@ -163,4 +163,4 @@ TEST(Params, MaterialsRefuseWhatTheModelCannotDo) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::light_params_test

@@ -8,7 +8,7 @@
 #include "render/fibre/chiang.h"
 #include "tests/render/path/path_scene.h"
 
-namespace pelage {
+namespace pelage::near_light_test {
 namespace {
 
 constexpr float kRadius = 0.4f;
@@ -158,4 +158,4 @@ TEST(NearLight, IsTheSameBySamplesOfItAndOfLobes) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::near_light_test

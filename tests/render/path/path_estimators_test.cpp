@@ -6,7 +6,7 @@
 #include "tests/geom/random_strands.h"
 #include "tests/render/path/path_scene.h"
 
-namespace pelage {
+namespace pelage::path_estimators_test {
 namespace {
 
 constexpr int kRuns = 16;
@@ -175,4 +175,4 @@ TEST(PathEstimators, SemiTransparentStrandsDimWhatIsBehind) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::path_estimators_test

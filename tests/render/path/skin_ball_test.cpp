@@ -7,7 +7,7 @@
 #include "tests/render/film/film_picture.h"
 #include "tests/render/path/skin_ball_scene.h"
 
-namespace pelage {
+namespace pelage::skin_ball_test {
 namespace {
 
 void expect_equal(const ExrImage& a, const ExrImage& b) {
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Both, SkinBallTest, testing::Values(Integrator::kPath, 
                          });
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::skin_ball_test

@@ -71,7 +71,7 @@ struct RasterScene : PathScene {
         for (int x = tile.x0; x < tile.x1; ++x, ++pixel) {
           for (uint32_t i = 0; i < count; ++i) {
             SampleStream stream = samples.stream(x, y, i);
-            const Ray ray = samples.draw(x, y, i, stream).ray;
+            const Ray ray = samples.sample(x, y, i, stream).ray;
             const Hit drawn = raster.closest(pixel, i, drawing, scratch), hit = accel.closest(ray, tracing);
             const bool same = is_same(hit, drawn);
             if (same && hit) expect_same_geometry(tracing.met, drawing.met, hit);

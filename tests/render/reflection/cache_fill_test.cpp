@@ -52,10 +52,10 @@ class CacheFillTest : public ::testing::Test {
       const int x = i % 24, y = i / 24 % 24;
       const auto sample = static_cast<uint32_t>(i / 576);
       SampleStream stream = camera.stream(x, y, sample);
-      const CameraSample from = camera.draw(x, y, sample, stream);
+      const CameraSample from = camera.sample(x, y, sample, stream);
       const Hit hit = scratch.closest(RayKind::kCamera, geometry_->accel(), from.ray);
       if (!hit) continue;
-      const ScatterPoint point = shading.scatter_point(from.ray, hit, scratch.thread.met);
+      const ScatterPoint point = shading.scatter_point(from.ray, hit, scratch.thread.hit_geometry);
       const auto drawn = point.sample(stream.next3d());
       if (!drawn) continue;
       Ray ray;
@@ -64,8 +64,8 @@ class CacheFillTest : public ::testing::Test {
       if (!point.can_hit_own_strand()) ray.start = hit.start;
       const Hit second = scratch.closest(RayKind::kIndirect, geometry_->accel(), ray);
       if (!second) continue;
-      (void)shading.scatter_point(ray, second, scratch.thread.met);
-      const auto light = cache->find(ray, second, scratch.thread.met);
+      (void)shading.scatter_point(ray, second, scratch.thread.hit_geometry);
+      const auto light = cache->find(ray, second, scratch.thread.hit_geometry);
       filled.answers.push_back(light ? light[0] : Rgb(-1));
     }
     return filled;

@@ -28,11 +28,11 @@ class CellKeysTest : public ::testing::Test {
     StrandArrays a = one_strand({at, at + V3f(0, 0.2f, 0), at + V3f(0, 0.4f, 0)}, 1e-3f).release();
     a.roots = {root};
     a.root_uv = {V2f(0)};
-    HitGeometry met;
-    met.strand = Strands(std::move(a));
+    HitGeometry hit_geometry;
+    hit_geometry.strand = Strands(std::move(a));
     Hit hit = key_scene::hit_on(place);
     hit.part = part_;
-    return *CellKeys(scene_).of(ray_, hit, met);
+    return *CellKeys(scene_).of(ray_, hit, hit_geometry);
   }
 
   RenderScene scene_ = key_scene::make({});
@@ -96,13 +96,13 @@ TEST_F(CellKeysTest, PartsOfLongStrandsAreShortAndLongerInLargerCells) {
   const auto parts = [&](float pixels) {
     const float length = pixels * 0.04f;
     StrandArrays a = one_strand({V3f(0), V3f(0, length / 2, 0), V3f(0, length, 0)}, 1e-3f).release();
-    HitGeometry met;
-    met.strand = Strands(std::move(a));
+    HitGeometry hit_geometry;
+    hit_geometry.strand = Strands(std::move(a));
     std::array<std::set<uint64_t>, 3> cells;
     std::set<std::pair<uint64_t, uint64_t>> small_in_large;
     for (int i = 0; i < 2000; ++i) {
       const Hit hit = key_scene::hit_on((static_cast<float>(i) + 0.5f) / 2000);
-      const CellPath path = *CellKeys(scene_).of(ray_, hit, met);
+      const CellPath path = *CellKeys(scene_).of(ray_, hit, hit_geometry);
       for (size_t level = 0; level < 3; ++level) cells[level].insert(path[level]);
       small_in_large.emplace(path[0], path[1]);
     }
@@ -132,12 +132,12 @@ TEST_F(CellKeysTest, TheTwoSidesOfASkinAreApart) {
 /// A thin skin that leans: rays in the same octant hit it from both sides.
 TEST_F(CellKeysTest, TheInsideOfASkinIsApartFromItsOutside) {
   scene_.skins.resize(1);
-  HitGeometry met;
-  met.triangle.positions = {0, 0, 0, 1, -1, 0, 1, 1, -2};  // its normal is (1, 1, 1)
-  met.triangle.normals = met.triangle.positions;
-  met.triangle.triangles = {0, 1, 2};
-  met.triangle.faces = {0};
-  met.triangle.vertex_uv.assign(3, V2f(0));
+  HitGeometry hit_geometry;
+  hit_geometry.triangle.positions = {0, 0, 0, 1, -1, 0, 1, 1, -2};  // its normal is (1, 1, 1)
+  hit_geometry.triangle.normals = hit_geometry.triangle.positions;
+  hit_geometry.triangle.triangles = {0, 1, 2};
+  hit_geometry.triangle.faces = {0};
+  hit_geometry.triangle.vertex_uv.assign(3, V2f(0));
   Hit hit;
   hit.kind = HitKind::kSkin;
   hit.distance = 1;
@@ -146,7 +146,7 @@ TEST_F(CellKeysTest, TheInsideOfASkinIsApartFromItsOutside) {
     if (rest) scene_.skins[0].rest = shapes::surface_of(shapes::square_cage(1));
     const auto hit_along = [&](const V3f& direction) {
       ray_.direction = direction;
-      return *CellKeys(scene_).of(ray_, hit, met);
+      return *CellKeys(scene_).of(ray_, hit, hit_geometry);
     };
     const CellPath outside = hit_along(V3f(0.1f, 0.2f, -0.9f)), inside = hit_along(V3f(0.9f, 0.2f, -0.1f));
     for (size_t level = 0; level < outside.size(); ++level) EXPECT_NE(outside[level], inside[level]);
@@ -157,18 +157,18 @@ TEST_F(CellKeysTest, TheInsideOfASkinIsApartFromItsOutside) {
 TEST_F(CellKeysTest, DiffuseSkinsHaveCellsAndGlossyOnesHaveNone) {
   scene_.skins.resize(2);
   scene_.skins[1].material = 1;
-  HitGeometry met;
-  met.triangle = sphere_mesh(1, 3);
+  HitGeometry hit_geometry;
+  hit_geometry.triangle = sphere_mesh(1, 3);
   Hit hit;
   hit.kind = HitKind::kSkin;
   hit.distance = 1;
   hit.u = hit.v = 0.25f;
-  const auto diffuse = CellKeys(scene_).of(ray_, hit, met);
+  const auto diffuse = CellKeys(scene_).of(ray_, hit, hit_geometry);
   ASSERT_TRUE(diffuse.has_value());
   hit.u = 0.26f;
-  EXPECT_EQ(*CellKeys(scene_).of(ray_, hit, met), *diffuse);
+  EXPECT_EQ(*CellKeys(scene_).of(ray_, hit, hit_geometry), *diffuse);
   hit.part = 1;
-  EXPECT_FALSE(CellKeys(scene_).of(ray_, hit, met).has_value());
+  EXPECT_FALSE(CellKeys(scene_).of(ray_, hit, hit_geometry).has_value());
 }
 
 CellPath cells_in(uint64_t largest) { return {mix64(largest + 1), mix64(largest + 2), largest}; }

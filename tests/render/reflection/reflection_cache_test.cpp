@@ -8,7 +8,7 @@
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
 
-namespace pelage {
+namespace pelage::reflection_cache_test {
 namespace {
 
 struct CachedScene : GatherScene {
@@ -165,4 +165,4 @@ TEST(ReflectionCache, AnInterruptedFillLeavesAnEmptyPicture) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::reflection_cache_test

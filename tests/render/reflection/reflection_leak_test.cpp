@@ -7,7 +7,7 @@
 #include "render/sampling/pixel_moments.h"
 #include "tests/render/reflection/leak_scenes.h"
 
-namespace pelage {
+namespace pelage::reflection_leak_test {
 namespace {
 
 double mean_luminance(const Film& film, const PixelBox& box) {
@@ -62,4 +62,4 @@ TEST(ReflectionLeaks, NotFromAWhiteCoatToABlackOne) { expect_no_leak<TwoCoats>(k
 TEST(ReflectionLeaks, NotIntoAHole) { expect_no_leak<StrandInAHole>(kBelowTheRim); }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::reflection_leak_test

@@ -9,7 +9,7 @@
 
 #include "base/hash.h"
 
-namespace pelage {
+namespace pelage::reflection_slots_test {
 namespace {
 
 constexpr uint64_t kCells = 3000;
@@ -155,4 +155,4 @@ TEST(PackedRadiance, StaysFiniteAndNotNegative) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::reflection_slots_test

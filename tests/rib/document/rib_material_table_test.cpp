@@ -7,7 +7,7 @@
 #include "base/temporary_folder.h"
 #include "world/scene_schema.h"
 
-namespace pelage {
+namespace pelage::rib_material_table_test {
 namespace {
 
 class RibMaterialTableTest : public testing::Test {
@@ -103,4 +103,4 @@ TEST_F(RibMaterialTableTest, MistakesHavePositionsInTheTable) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_material_table_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pelage {
+namespace pelage::rib_batches_test {
 namespace {
 
 StrandArrays lines(size_t count, float value = 1) {
@@ -98,4 +98,4 @@ TEST(RibBatches, DropsStrandsThatCannotBeDrawn) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_batches_test

@@ -10,7 +10,7 @@
 #include "rib/syntax/rib_curve_layout.h"
 #include "tests/rib/syntax/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_curve_reader_test {
 namespace {
 
 using namespace rib_test;
@@ -218,4 +218,4 @@ TEST(RibCurveReader, WrongCountsAreErrorsWithPositions) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_curve_reader_test

@@ -5,7 +5,7 @@
 
 #include "tests/rib/syntax/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_mesh_reader_test {
 namespace {
 
 using namespace rib_test;
@@ -105,4 +105,4 @@ TEST(RibMeshReader, MistakesHavePositions) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_mesh_reader_test

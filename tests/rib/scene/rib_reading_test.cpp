@@ -8,7 +8,7 @@
 #include "rib/scene/rib_interpreter.h"
 #include "tests/rib/syntax/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_reading_test {
 namespace {
 
 using namespace rib_test;
@@ -335,4 +335,4 @@ TEST(RibReading, TextBinaryAndCompressedFilesGiveTheSameStrands) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_reading_test

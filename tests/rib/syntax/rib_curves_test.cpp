@@ -6,7 +6,7 @@
 #include "tests/geom/random_strands.h"
 #include "tests/rib/syntax/rib_tokens.h"
 
-namespace pelage {
+namespace pelage::rib_curves_test {
 namespace {
 
 std::string written(const Strands& strands, RibEncoding encoding) {
@@ -138,4 +138,4 @@ TEST(RibCurves, BinaryStrandOfEightPointsTakes160Bytes) {
 TEST(RibCurves, NoStrandsGiveNoRequest) { EXPECT_EQ(written(Strands(), RibEncoding::kAscii), ""); }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_curves_test

@@ -5,7 +5,7 @@
 
 #include "tests/rib/syntax/rib_bytes_of.h"
 
-namespace pelage {
+namespace pelage::rib_reader_test {
 namespace {
 
 using namespace rib_test;
@@ -61,4 +61,4 @@ TEST(RibReader, ErrorsHavePositions) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_reader_test

@@ -2,11 +2,10 @@
 // The fur tree beside Embree's flat curves: the same ribbons by other means.
 #include <gtest/gtest.h>
 
-#include "base/ledger.h"
 #include "base/parallel.h"
-#include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"
 #include "render/accel/fur/fur_tree.h"
+#include "tests/render/accel/embree_accel.h"
 #include "tests/render/accel/fur/fur_grooms.h"
 
 namespace pelage {
@@ -57,13 +56,12 @@ TEST(FurBesideEmbree, meets_the_same_segments) {
   const std::vector<Ray> rays = clear_rays(strands, 12);
   ASSERT_GT(rays.size(), kRays / 2);
   const Workers workers(1);
-  MemoryLedger ledger;
   double different[3] = {};
   size_t met = 0, turned = 0;
   for (int rate : {4, 8, 16}) {
     EmbreeOptions options;
     options.tessellation_rate = rate;
-    const EmbreeAccel embree({{&strands, 0, {}}}, {}, options, ledger, workers);
+    const EmbreeAccel embree({{&strands, 0, {}}}, {}, options, workers);
     TraceThread thread;
     size_t others = 0;
     met = 0;
@@ -85,13 +83,13 @@ TEST(FurBesideEmbree, meets_the_same_segments) {
     }
     different[rate == 4 ? 0 : rate == 8 ? 1 : 2] = static_cast<double>(others);
   }
-  EXPECT_GT(met, rays.size() / 4);
-  EXPECT_LT(different[2], 0.01 * static_cast<double>(met));
+  EXPECT_GT(hit_geometry, rays.size() / 4);
+  EXPECT_LT(different[2], 0.01 * static_cast<double>(hit_geometry));
   // Embree's pieces stray from the curve by the square of their length.
   EXPECT_GT(different[0], 3 * different[1]);
   EXPECT_GT(different[1], 2 * different[2]);
   // Across, they differ where a strand runs almost along the ray.
-  EXPECT_LT(static_cast<double>(turned), 1e-3 * static_cast<double>(met));
+  EXPECT_LT(static_cast<double>(turned), 1e-3 * static_cast<double>(hit_geometry));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "tests/soak.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::fur_intersection_test {
 namespace {
 
 constexpr size_t kStrands = 30;
@@ -303,4 +303,4 @@ TEST(FurHit, meets_nothing_of_what_is_not_finite) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::fur_intersection_test

@@ -11,7 +11,7 @@
 #include "tests/render/accel/fur/fur_grooms.h"
 #include "tests/support/effort.h"
 
-namespace pelage {
+namespace pelage::fur_tree_test {
 namespace {
 
 constexpr size_t kStrands = 300;
@@ -193,4 +193,4 @@ TEST(FurTree, lets_the_smaller_id_stand_first) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::fur_tree_test

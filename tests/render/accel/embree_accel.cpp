@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/embree_accel.h"
+#include "tests/render/accel/embree_accel.h"
 
 #include <algorithm>
 
+#include "render/accel/crossings.h"
 #include "render/accel/embree_query.h"
-#include "render/accel/embree_scene.h"
 
 namespace pelage {
 namespace {
@@ -92,12 +92,6 @@ void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
 
 }  // namespace
 
-EmbreeAccel::EmbreeAccel(std::vector<AccelStrands> strands, std::vector<const SkinMesh*> skins,
-                         const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers)
-    : scene_(std::make_unique<EmbreeScene>(strands, skins, options, ledger, workers)) {}
-
-EmbreeAccel::~EmbreeAccel() = default;
-
 Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   Hit hit;
   if (!is_finite(ray)) return hit;
@@ -114,7 +108,7 @@ Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
     hit.kind = HitKind::kSkin;
     hit.part = scene_->skin(r.hit.geomID);
     hit.v = r.hit.v;
-    thread.met.triangle.assign_triangle(scene_->skin_mesh(r.hit.geomID), r.hit.primID);
+    thread.hit_geometry.triangle.assign_triangle(scene_->skin_mesh(r.hit.geomID), r.hit.primID);
     return hit;
   }
   const EmbreeCurves& batch = scene_->curves(r.hit.geomID);
@@ -124,10 +118,10 @@ Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   hit.strand_id = batch.strands().id(place.strand);
   hit.segment = place.segment;
   hit.v = -r.hit.v;  // Embree's sign convention is opposite
-  thread.met.strand.assign_strand(batch.strands(), place.strand);
+  thread.hit_geometry.strand.assign_strand(batch.strands(), place.strand);
   if (scene_->is_round() || batch.strands().basis() == CurveBasis::kLinear) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
-    hit.v = offset_across(thread.met.strand, scene_->is_round(), ray, hit, normal);
+    hit.v = offset_across(thread.hit_geometry.strand, scene_->is_round(), ray, hit, normal);
   }
   return hit;
 }

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+# Read by CTest: makes one test of each suite of `program`, a GoogleTest program, with the given name and labels.
+if(NOT EXISTS "${program}")
+  add_test("${name}.NOT_BUILT" "${program}")
+  return()
+endif()
+execute_process(COMMAND "${program}" --gtest_list_tests OUTPUT_VARIABLE list RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "${program} --gtest_list_tests: ${code}")
+endif()
+string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${list}")
+foreach(suite IN LISTS suites)
+  string(REGEX REPLACE "^\n|\\.$" "" suite "${suite}")
+  add_test("${name}.${suite}" "${program}" --gtest_brief=1 "--gtest_filter=${suite}.*")
+  set_tests_properties("${name}.${suite}" PROPERTIES LABELS "${labels}" TIMEOUT 1800)
+endforeach()
