@@ -18,7 +18,7 @@ constexpr size_t kOverhead = size_t(16) << 10;  // small allocations of a chunk,
 constexpr size_t kUnmet = 4096;                 // segments of a chunk in excess of full blocks
 constexpr size_t kMaxHead = size_t(1) << 20;
 
-enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
+enum ChunkSection : size_t { kHead, kPacked, kNodes, kLeaves };
 
 /// Metadata of a chunk, followed by the metadata of its packed strands.
 struct Head {

@@ -17,7 +17,7 @@ constexpr size_t kPixels = static_cast<size_t>(FilmSums::kTileSide) * FilmSums::
 /// One in kPilotShare samples is traced first. From these, the others learn which lights arrive.
 constexpr uint32_t kPilotShare = 8;
 /// With so few samples, a first pass of one would find too few points that share light.
-constexpr int kFew = 4;
+constexpr int kFewSamples = 4;
 /// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
 constexpr int64_t kMemoryShare = 8;
 
@@ -72,7 +72,7 @@ GatherTracer::GatherTracer(const FrameScene& scene, const Accel& accel, const Re
       layers_(layers),
       options_(options),
       memory_(std::move(memory)),
-      first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
+      first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFewSamples),
       shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),

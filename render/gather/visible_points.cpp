@@ -11,13 +11,6 @@
 namespace pelage {
 namespace {
 
-/// Dimensions after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
-enum FirstVertexDimension : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
-
-void seek(SampleStream& stream, FirstVertexDimension dimension) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + dimension);
-}
-
 /// The i-th number of a sequence in [0, 1) from the random number u: a rotation by the golden ratio.
 float turned(float u, size_t i) {
   const float sum = u + static_cast<float>(i) * 0.6180339887f;
@@ -85,7 +78,7 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   SampleStream stream = camera_.stream(x, y, sample);
   find_light(point, stream, scratch, thread, visible, tile);
   expect_light(visible, tile.zone_of_gather_point[visible.gather_point], scratch, sharing);
-  seek(stream, kLightChoice);
+  seek(stream, VertexDimension::kLightChoice);
   choose_targets(point, stream.next1d(), scratch, tile);
   tile.points.push_back(visible);
 }
@@ -117,14 +110,14 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   };
 
   direct_.begin(point, scratch.direct);
-  seek(stream, kLight);
+  seek(stream, VertexDimension::kLight);
   direct_.propose(
       point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
   thread.costs.occlusion.add_candidates(direct_.candidates(), scratch.direct.proved);
   for (const LightPoint& to : scratch.direct.points) {
     propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
   }
-  seek(stream, kLobe);
+  seek(stream, VertexDimension::kLobe);
   const auto sample = point.sample(stream.next3d());
   if (sample) {
     const FibreValue& value = sample->value;

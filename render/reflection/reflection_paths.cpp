@@ -8,16 +8,6 @@
 #include "render/sampling/systematic_choice.h"
 
 namespace pelage {
-namespace {
-
-/// Dimensions after SampleDimension::kFirstVertex, the same as those of a path's first vertex.
-enum FirstVertexDimension : uint32_t { kLobe = 1, kRoulette = 3 };
-
-void seek(SampleStream& stream, FirstVertexDimension dimension) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + dimension);
-}
-
-}  // namespace
 
 /// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light.
 class ReflectionPaths::Recorder {
@@ -84,7 +74,7 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
   const Hit hit = scratch.closest(RayKind::kCamera, accel_, from.ray);
   if (!hit) return;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, scratch.thread.hit_geometry);
-  seek(stream, kLobe);
+  seek(stream, VertexDimension::kLobe);
   const auto scattered = point.sample(stream.next3d());
   if (!scattered) return;
   PathState path(stream);
@@ -95,7 +85,7 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
   if (!(max_component(path.weight) > 0)) return;
   if (options_.roulette) {
     const float survived = PathWalk<Recorder>::survival(path.weight);
-    seek(stream, kRoulette);
+    seek(stream, VertexDimension::kRoulette);
     if (stream.next1d() >= survived) return;
     path.weight /= survived;
   }
