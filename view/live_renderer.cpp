@@ -55,28 +55,28 @@ class LiveRenderer::Watch final : public FrameWatch {
   Watch(LiveRenderer& renderer, const SceneEdit& edit, bool is_preview)
       : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
 
-  void passed(const Film& film, const PassState& state) override {
+  void passed(const Film& film, const PassState& pass) override {
     ViewState& state = renderer_.state_;
     std::vector<std::string> names;
     Picture picture;
     picture.width = film.width();
     picture.height = film.height();
-    picture.grid = state.grid;
-    picture.full = state.full;
-    picture.samples = state.samples;
+    picture.grid = pass.grid;
+    picture.full = pass.full;
+    picture.samples = pass.samples;
     picture.layers = film_layers(
         film, [&](const std::string& layer) { return state.is_wanted(layer); }, &names);
     state.publish(std::move(picture));
     const int64_t regrown = renderer_.strands_regrown();
     state.update([&](ViewStatus& status) {
       if (status.first_pixels_s == 0) status.first_pixels_s = seconds_since(edit_.noticed);
-      status.mean_samples = state.mean_samples;
+      status.mean_samples = pass.mean_samples;
       status.layers = std::move(names);
       status.strands_regrown = regrown;
     });
     if (!is_preview_) renderer_.answer_questions();
     // What follows is better seen in the picture itself.
-    if (is_preview_ && state.grid <= 2) renderer_.preview_is_over_ = true;
+    if (is_preview_ && pass.grid <= 2) renderer_.preview_is_over_ = true;
   }
   std::optional<PixelBox> region() const override { return renderer_.state_.control().region(); }
   uint32_t region_version() const override { return renderer_.state_.control().region_version(); }
