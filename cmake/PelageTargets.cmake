@@ -130,6 +130,5 @@ function(pelage_bench module)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE pelage_options pelage_warnings ${ARG_DEPS} ${ARG_LIBS}
                         benchmark::benchmark)
-  target_precompile_headers(${target} REUSE_FROM pelage_headers)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
 endfunction()
