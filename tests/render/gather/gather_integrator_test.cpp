@@ -51,26 +51,6 @@ TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) 
   EXPECT_GT(depths / pixels, 0.98);
 }
 
-// The rule of the film, with its bias: what the first rays of a tile miss stays dark.
-TEST(GatherIntegrator, RejectionLosesLight) {
-  double mean[2] = {0, 0}, square[2] = {0, 0};
-  constexpr int kRuns = 6;
-  for (const bool rejects : {false, true}) {
-    GatherScene scene;
-    scene.render.bounces = 0;
-    scene.render.samples = 16;
-    scene.render.gather.reject = rejects;
-    for (int run = 0; run < kRuns; ++run) {
-      scene.render.seed = 2 * run + rejects;
-      const double of_run = luminance(picture_mean(scene.run({}, 2).film).mean);
-      mean[rejects] += of_run / kRuns;
-      square[rejects] += of_run * of_run / kRuns;
-    }
-  }
-  const auto variance = [&](int i) { return (square[i] - mean[i] * mean[i]) / (kRuns - 1); };
-  EXPECT_LT(mean[1], mean[0] - 3.3 * std::sqrt(variance(0) + variance(1)));
-}
-
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   scene.render.gather.cache = false;  // its memory has the same tag

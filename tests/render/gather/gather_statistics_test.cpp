@@ -6,6 +6,7 @@
 
 #include "render/sampling/pixel_moments.h"
 #include "tests/render/gather/gather_scene.h"
+#include "tests/render/path/skin_ball_scene.h"
 
 namespace pelage {
 namespace {
@@ -130,6 +131,18 @@ TEST(GatherWithReuse, HasTheMeanOfPathsAndLessVariance) {
     return sum;
   };
   EXPECT_LT(variance(Integrator::kGather), 0.75 * variance(Integrator::kPath)) << "both splatted";
+}
+
+// The rule of the film, with its bias: what the first rays of a tile miss stays dark.
+TEST(GatherWithReuse, RejectionLosesLight) {
+  SkinBallScene scene;
+  scene.render.integrator = Integrator::kGather;
+  scene.render.bounces = 0;
+  scene.render.samples = 8;
+  const std::vector<PixelMoments> guessed = block_moments(scene, 1);
+  scene.render.gather.reject = true;
+  const Comparison result = compare(block_moments(scene, 101), guessed);
+  EXPECT_LT(result.relative, -4 * result.error);
 }
 
 }  // namespace
