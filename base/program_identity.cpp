@@ -13,6 +13,9 @@
 #include "base/mapped_file.h"
 
 #if defined(__x86_64__) && defined(__GLIBC__)
+#ifdef __clang__
+#define _Bool bool  // the header is for C
+#endif
 #include <sys/platform/x86.h>
 #endif
 

@@ -51,8 +51,13 @@ class RandomCoat {
     groom = Groom::create("coat", params, rest, textures_, QuietJob(2, ledger_));
 
     const float turn = between(-2, 2), swell = between(-0.3f, 0.3f), tilt = between(0, 6);
-    const V3f flight(between(-3, 3), between(-3, 3), between(-3, 3));
-    const V3f place(between(-50, 50), between(-50, 50), between(-50, 50));
+    // One after the other: the order of a function's arguments depends on the compiler.
+    const auto vector = [&](float max) {
+      const float z = between(-max, max), y = between(-max, max), x = between(-max, max);
+      return V3f(x, y, z);
+    };
+    const V3f flight = vector(3);
+    const V3f place = vector(50);
     const auto pose_at = [&](PosedCages& cages, float t) {
       std::vector<V3f> posed = cage.positions;
       M44f m;

@@ -166,7 +166,8 @@ TEST_F(GrowthVersions, Fields) {
     for (int i = 0; i < 200; ++i) {
       TestRandom random(static_cast<uint64_t>(i));
       const FieldAttribute attributes[] = {{"random", Rgb(random.unit())}, {"clump", Rgb(random.unit())}};
-      const V3f at(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2));
+      V3f at;  // one after the other: the order of a function's arguments depends on the compiler
+      for (int axis = 0; axis < 3; ++axis) at[axis] = random.between(-2, 2);
       const FieldPoint point{at, random.between(-1, 2), random.unit(), random.unit(), attributes};
       const Rgb color = field.color(point);
       values.insert(values.end(), {color.x, color.y, color.z, field.value(point)});
