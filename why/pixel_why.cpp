@@ -28,7 +28,7 @@ ChunkWhy explain_chunk(const FrameGeometry& geometry, uint32_t chunk) {
     return 0;
   });
   why.box = chunks.boxes().whole(chunk);
-  why.segment_cell_bounds = chunks.boxes().fine(chunk).count();
+  why.segment_cell_bounds = chunks.boxes().cell_bounds(chunk).count();
   why.growths = geometry.growths(chunk);
   return why;
 }
@@ -84,7 +84,7 @@ MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& f
         why.parameters = P::schema().describe(params);
       },
       item.value);
-  why.color = FrameShading(frame).color(surface.hit, surface.met);
+  why.color = FrameShading(frame).color(surface.hit, surface.hit_geometry);
   if (is_strand) why.opacity = opacity_at(frame, surface);
   return why;
 }
