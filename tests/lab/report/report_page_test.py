@@ -47,7 +47,8 @@ def table(columns, *rows):
 
 class Page(unittest.TestCase):
     def show(self, page, *flags):
-        with tempfile.TemporaryDirectory() as folder:
+        # Processes of the browser may still write when it has ended.
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             file = pathlib.Path(folder) / "report.html"
             file.write_text(page)
             run = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={folder}/profile", *flags, f"file://{file}"],
