@@ -2,58 +2,31 @@
 // How long the command takes to start, and how much memory: whole processes, from fork to exit. `ratio` is to
 // /bin/true in the same run; the aim is 50 ms and 20 MB.
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+
+#include "base/process.h"
 
 namespace {
 
-struct Cost {
-  double seconds = 0;
-  double peak_megabytes = 0;
-  bool succeeded = false;
-};
-
-Cost run(const std::array<std::string, 3>& arguments) {
-  std::array<char*, 4> argv{};
-  size_t count = 0;
-  for (const std::string& argument : arguments) {
-    if (!argument.empty()) argv[count++] = const_cast<char*>(argument.c_str());
-  }
-  const auto start = std::chrono::steady_clock::now();
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    ::dup2(nowhere, STDOUT_FILENO);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  if (child < 0 || ::wait4(child, &status, 0, &usage) != child) return {};
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-  return {passed.count(), static_cast<double>(usage.ru_maxrss) / 1024,
-          WIFEXITED(status) && WEXITSTATUS(status) == 0};
-}
+pelage::ProcessEnd run(const std::vector<std::string>& command) { return pelage::run_process({command}).end; }
 
 void start(benchmark::State& state, const std::string& verb, const std::string& file) {
   double seconds = 0, yardstick = 0, peak = 0;
   for (auto _ : state) {
-    const Cost ours = run({PELAGE_COMMAND, verb, file}), bare = run({"/bin/true", "", ""});
-    if (!ours.succeeded || !bare.succeeded) {
+    std::vector<std::string> command{PELAGE_COMMAND, verb};
+    if (!file.empty()) command.push_back(file);
+    const pelage::ProcessEnd ours = run(command), bare = run({"/bin/true"});
+    if (!ours.succeeded() || !bare.succeeded()) {
       state.SkipWithError("the command failed");
       return;
     }
-    state.SetIterationTime(ours.seconds);
-    seconds += ours.seconds;
-    yardstick += bare.seconds;
-    peak = std::max(peak, ours.peak_megabytes);
+    state.SetIterationTime(ours.wall_s);
+    seconds += ours.wall_s;
+    yardstick += bare.wall_s;
+    peak = std::max(peak, static_cast<double>(ours.peak_rss_bytes) / (1 << 20));
   }
   state.counters["ratio"] = seconds / yardstick;
   state.counters["peak_MB"] = peak;

@@ -10,8 +10,6 @@ namespace pelage {
 
 int run_render(const Options& options);
 int run_grow(const Options& options);
-int run_measure(const Options& options);
-int run_compare(const Options& options);
 int run_info(const Options& options);
 int run_merge(const Options& options);
 int run_farm(const Options& options);

@@ -1,16 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common_flags.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "base/value_readers.h"
+#include "cli/command_line.h"
 #include "cli/number_checks.h"
-#include "groom/strands/curve_basis_names.h"
+#include "world/frames.h"
 
 namespace pelage {
+namespace {
 
-void add_scene_flags(CLI::App& command, Options& options, Texts& texts, const char* scene_help) {
+constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json", "alfred", "tractor"};
+
+ProgressStyle parse_progress(const RunTexts& texts) {
+  if (texts.quiet) return ProgressStyle::kQuiet;
+  if (texts.progress.empty()) return ProgressStyle::kAuto;
+  const std::vector<std::string> names(std::begin(kProgressNames), std::end(kProgressNames));
+  const auto found = std::find(names.begin(), names.end(), texts.progress);
+  if (found == names.end())
+    fail_arguments("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
+  return static_cast<ProgressStyle>(found - names.begin());
+}
+
+}  // namespace
+
+void add_scene_flags(CLI::App& command, RunOptions& options, RunTexts& texts, const char* scene_help) {
   command.add_option("SCENE", options.input, scene_help)->required();
   // Not greedy: `--set a=1 scene.yaml` must not consume the scene.
   command.add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
@@ -18,7 +40,7 @@ void add_scene_flags(CLI::App& command, Options& options, Texts& texts, const ch
       ->type_name("KEY=VALUE");
 }
 
-void add_thread_flags(CLI::App& command, Options& options, Texts& texts) {
+void add_thread_flags(CLI::App& command, RunOptions& options, RunTexts& texts) {
   command.add_option("--threads", options.threads, "Number of threads (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
@@ -28,12 +50,12 @@ void add_thread_flags(CLI::App& command, Options& options, Texts& texts) {
       ->excludes(quiet);
 }
 
-void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
+void add_parallel_flags(CLI::App& command, RunOptions& options, RunTexts& texts, const char* memory_help) {
   add_thread_flags(command, options, texts);
   command.add_option("--memory", texts.memory, memory_help)->type_name("BYTES");
 }
 
-void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
+void add_run_flags(CLI::App& command, RunOptions& options, RunTexts& texts, const char* memory_help) {
   command.add_option("--stats", texts.stats, "Write statistics of this run as JSON")->type_name("FILE.json");
   command
       .add_option("--sample-memory", options.sample_memory_s,
@@ -43,14 +65,24 @@ void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char
   add_parallel_flags(command, options, texts, memory_help);
 }
 
-void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
-  command
-      .add_option("--basis", texts.basis,
-                  "Curve basis of a strand file: " + ValueReader<CurveBasis>::type_name())
-      ->type_name("BASIS");
-  command.add_option("--default-width", options.default_width, "Strand width if the file has none")
-      ->check(positive_number())
-      ->type_name("WIDTH");
+void interpret_run(const RunTexts& texts, RunOptions& options) {
+  for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
+  if (!texts.memory.empty()) {
+    if (!parse_bytes(texts.memory))
+      fail_arguments("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
+    options.overrides.push_back({"render.memory", texts.memory});
+  }
+  if (!texts.frames.empty()) {
+    parse_frames(texts.frames);  // throws here, where the flag can be named
+    options.overrides.push_back({"frames", "'" + texts.frames + "'"});
+  }
+  if (!texts.stats.empty()) options.stats = texts.stats;
+  options.progress = parse_progress(texts);
+}
+
+std::string progress_name(ProgressStyle style) {
+  const bool named = style != ProgressStyle::kAuto && style != ProgressStyle::kQuiet;
+  return named ? kProgressNames[static_cast<size_t>(style)] : "";
 }
 
 }  // namespace pelage

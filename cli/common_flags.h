@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
-#include "cli/post_flags.h"
+#include "cli/run_options.h"
 
 namespace CLI {
 class App;
@@ -13,31 +12,28 @@ class App;
 
 namespace pelage {
 
-/// Values of flags that the parser leaves as text until parse_options() validates them, so that all messages
+/// Values of flags that the parser leaves as text until interpret_run() validates them, so that all messages
 /// are our own.
-struct Texts {
-  std::string frames, memory, progress, basis, stats, experiment;
+struct RunTexts {
+  std::string frames, memory, progress, stats;
   std::vector<std::string> set;
-  std::vector<std::string> section;  // its words
   bool quiet = false;
-  PostTexts post;
-  PictureTexts picture;
-  std::string checkpoint_every;
-  FarmTexts farm;
 };
 
 inline constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";
 
 /// Adds SCENE and --set.
-void add_scene_flags(CLI::App& command, Options& options, Texts& texts,
+void add_scene_flags(CLI::App& command, RunOptions& options, RunTexts& texts,
                      const char* scene_help = "Scene file");
 /// Adds --threads, --quiet and --progress.
-void add_thread_flags(CLI::App& command, Options& options, Texts& texts);
+void add_thread_flags(CLI::App& command, RunOptions& options, RunTexts& texts);
 /// Adds --memory and the flags of add_thread_flags().
-void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help);
+void add_parallel_flags(CLI::App& command, RunOptions& options, RunTexts& texts, const char* memory_help);
 /// Adds --stats, --sample-memory and the flags of add_parallel_flags().
-void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help = kMemoryHelp);
-/// Adds --basis and --default-width, for strand files.
-void add_strand_flags(CLI::App& command, Options& options, Texts& texts);
+void add_run_flags(CLI::App& command, RunOptions& options, RunTexts& texts,
+                   const char* memory_help = kMemoryHelp);
+
+/// Reads the texts, and adds the overrides of the flags that set scene values. Throws Error (kArguments).
+void interpret_run(const RunTexts& texts, RunOptions& options);
 
 }  // namespace pelage

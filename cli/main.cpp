@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <filesystem>
 #include <iostream>
-#include <new>
 
-#include <unistd.h>
-
-#include "base/heap.h"
+#include "base/program.h"
 #include "cli/commands.h"
-#include "cli/report_error.h"
-#include "cli/signals.h"
-#include "cli/standard_output.h"
+#include "cli/lab_program.h"
+#include "cli/program.h"
 
 namespace {
 
@@ -22,10 +16,6 @@ int run(const pelage::Options& options) {
       return pelage::run_render(options);
     case Command::kGrow:
       return pelage::run_grow(options);
-    case Command::kMeasure:
-      return pelage::run_measure(options);
-    case Command::kCompare:
-      return pelage::run_compare(options);
     case Command::kInfo:
       return pelage::run_info(options);
     case Command::kFarm:
@@ -52,36 +42,15 @@ int run(const pelage::Options& options) {
   return 2;
 }
 
-int run_command_line(int argc, char** argv) {
-  try {
-    const auto options = pelage::parse_options(std::vector<std::string>(argv + 1, argv + argc), std::cout);
-    return options ? run(*options) : 0;
-  } catch (const pelage::Error& error) {
-    std::fputs(pelage::error_text(error).c_str(), stderr);
-    return pelage::exit_code(error.kind());
-  } catch (const std::bad_alloc&) {
-    std::fputs("pelage: error: out of memory\n", stderr);
-    return pelage::exit_code(pelage::ErrorKind::kMemory);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pelage: error: %s\n", error.what());
-    return pelage::exit_code(pelage::ErrorKind::kFailed);
-  }
-}
-
-// Output that could not be written is a failure too. A reader that stops early (head) is not.
-int after_output(int code, int failure) {
-  if (failure == 0 || code != 0) return code;
-  if (failure != EPIPE)
-    std::fprintf(stderr, "pelage: error: cannot write to standard output: %s\n", std::strerror(failure));
-  return pelage::exit_code(pelage::ErrorKind::kFailed);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  pelage::prepare_process();
-  pelage::keep_heap_small();
-  pelage::StandardOutput output(STDOUT_FILENO);
-  const int code = run_command_line(argc, argv);
-  return after_output(code, output.finish());
+  return pelage::run_program(argc, argv, [](const std::vector<std::string>& arguments) {
+    if (pelage::is_lab_command(arguments)) {
+      const std::filesystem::path lab = pelage::current_program().parent_path() / "pelage-lab";
+      return pelage::start_lab(lab, arguments, std::cout);
+    }
+    const auto options = pelage::parse_options(arguments, std::cout);
+    return options ? run(*options) : 0;
+  });
 }

@@ -3,28 +3,42 @@
 
 #include <algorithm>
 #include <map>
-#include <ostream>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 #include "base/nearest_name.h"
-#include "base/version.h"
-#include "cli/argument_errors.h"
+#include "cli/command_line.h"
 #include "cli/common_flags.h"
-#include "cli/experiment_flags.h"
+#include "cli/lab_program.h"
 #include "cli/number_checks.h"
 #include "cli/post_flags.h"
 #include "cli/rib_flags.h"
 #include "groom/strands/curve_basis_names.h"
-#include "lab/compare/fibre_oracle.h"
-#include "world/frames.h"
 
 namespace pelage {
 namespace {
 
-constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json", "alfred", "tractor"};
+/// Values of flags that the parser leaves as text until they are validated, so that all messages are our own.
+struct Texts : RunTexts {
+  std::string basis;
+  std::vector<std::string> section;  // its words
+  PostTexts post;
+  PictureTexts picture;
+  std::string checkpoint_every;
+  FarmTexts farm;
+};
+
+void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
+  command
+      .add_option("--basis", texts.basis,
+                  "Curve basis of a strand file: " + ValueReader<CurveBasis>::type_name())
+      ->type_name("BASIS");
+  command.add_option("--default-width", options.default_width, "Strand width if the file has none")
+      ->check(positive_number())
+      ->type_name("WIDTH");
+}
 
 void add_render(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
@@ -99,49 +113,6 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
                    "Frames to compute bounding boxes for; strands grow at the first frame")
       ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
-}
-
-void add_measure(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* measure = app.add_subcommand(
-      "measure", "Run one experiment, one process per variant, and write a report: JSON, CSV, HTML");
-  measure
-      ->add_option("EXPERIMENT", texts.experiment,
-                   "bounces, bounds, growth, lod, residency, samplers or shading")
-      ->required();
-  add_scene_flags(*measure, options, texts);
-  measure
-      ->add_option("-o,--output", options.output,
-                   "Report folder (default: the scene's and the experiment's name)")
-      ->type_name("DIR");
-  measure->add_option("--frames", texts.frames, "Frame to measure (default: the scene's first)")
-      ->type_name("FRAME");
-  measure
-      ->add_option("--repeat", options.repeat,
-                   "Runs per variant; the run with the median time is reported (default: 3)")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
-      ->check(positive_number())
-      ->type_name("SECONDS");
-  add_experiment_flags(*measure, options);
-  add_parallel_flags(*measure, options, texts, kMemoryHelp);
-}
-
-void add_compare(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* compare = app.add_subcommand(
-      "compare", "Render a scene with every fibre model and report: contact sheet, cost, noise, energy");
-  add_scene_flags(*compare, options, texts);
-  compare
-      ->add_option("-o,--output", options.output,
-                   "Folder for the report and its pictures (default: the scene's name and _compare)")
-      ->type_name("DIR");
-  compare->add_option("--models", options.models, "Compare only these models, such as chiang,yan")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("MODELS");
-  compare->add_option("--frames", texts.frames, "Frame to compare (default: the scene's first)")
-      ->type_name("FRAME");
-  add_run_flags(*compare, options, texts);
 }
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
@@ -221,8 +192,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_view(app, options, texts);
   add_why(app, options, texts);
   add_grow(app, options, texts);
-  add_measure(app, options, texts);
-  add_compare(app, options, texts);
+  for (const LabCommand& command : lab_commands()) app.add_subcommand(command.name, command.help);
   add_info(app, options, texts);
   add_merge(app, options, texts);
   add_rib(app, options, texts);
@@ -233,44 +203,13 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{{"render", Command::kRender},
-                                                    {"view", Command::kView},
-                                                    {"why", Command::kWhy},
-                                                    {"grow", Command::kGrow},
-                                                    {"measure", Command::kMeasure},
-                                                    {"compare", Command::kCompare},
-                                                    {"info", Command::kInfo},
-                                                    {"merge", Command::kMerge},
-                                                    {"farm", Command::kFarm},
-                                                    {"convert", Command::kConvert},
-                                                    {"motionblur", Command::kMotionBlur},
-                                                    {"stereo", Command::kStereo},
-                                                    {"rib", Command::kRib},
-                                                    {"procedural", Command::kProcedural},
-                                                    {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{
+      {"render", Command::kRender}, {"view", Command::kView},       {"why", Command::kWhy},
+      {"grow", Command::kGrow},     {"info", Command::kInfo},       {"merge", Command::kMerge},
+      {"farm", Command::kFarm},     {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo}, {"rib", Command::kRib},         {"procedural", Command::kProcedural},
+      {"manual", Command::kManual}};
   return names;
-}
-
-// Otherwise an unknown first word would be reported as a superfluous argument.
-void check_command(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) fail_arguments("expected a command; see 'pelage --help'");
-  if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
-  std::vector<std::string> names;
-  for (const auto& [name, command] : command_names()) names.push_back(name);
-  std::string hint = did_you_mean(arguments[0], names);
-  for (const std::string& name : hint.empty() ? names : std::vector<std::string>())
-    hint += (hint.empty() ? "; expected one of " : ", ") + name;
-  fail_arguments("unknown command " + quote(arguments[0]) + hint);
-}
-
-ProgressStyle parse_progress(const Texts& texts) {
-  if (texts.quiet) return ProgressStyle::kQuiet;
-  if (texts.progress.empty()) return ProgressStyle::kAuto;
-  const std::vector<std::string> names(std::begin(kProgressNames), std::end(kProgressNames));
-  const auto found = std::find(names.begin(), names.end(), texts.progress);
-  if (found == names.end())
-    fail_arguments("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
-  return static_cast<ProgressStyle>(found - names.begin());
 }
 
 CurveBasis parse_basis(const std::string& text) {
@@ -281,80 +220,32 @@ CurveBasis parse_basis(const std::string& text) {
   return static_cast<CurveBasis>(found - names.begin());
 }
 
-void check_models(const std::vector<std::string>& models) {
-  const std::vector<std::string>& known = fibre_model_names();
-  for (const std::string& model : models) {
-    if (std::find(known.begin(), known.end(), model) == known.end())
-      fail_arguments("--models: unknown fibre model " + quote(model) + suggest(model, known));
-  }
-}
-
 void interpret(const Texts& texts, Options& options) {
-  check_models(options.models);
-  for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
+  interpret_run(texts, options);
   if (!texts.memory.empty()) {
-    if (!parse_bytes(texts.memory))
-      fail_arguments("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
-    options.overrides.push_back({"render.memory", texts.memory});
     const auto bytes =
         static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
     options.motion_blur.file.memory = options.stereo.file.memory = bytes;
-  }
-  if (!texts.frames.empty()) {
-    parse_frames(texts.frames);  // throws here, where the flag can be named
-    options.overrides.push_back({"frames", "'" + texts.frames + "'"});
   }
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
   interpret_farm(texts.farm, options.output, options.farm);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
-  if (!texts.stats.empty()) options.stats = texts.stats;
   if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
-  interpret_experiment(texts.experiment, options);
-  options.progress = parse_progress(texts);
   interpret_post(texts.post, options);
 }
 
 }  // namespace
 
-std::string progress_name(ProgressStyle style) {
-  const bool named = style != ProgressStyle::kAuto && style != ProgressStyle::kQuiet;
-  return named ? kProgressNames[static_cast<size_t>(style)] : "";
-}
-
 std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out) {
   Options options;
   Texts texts;
-  CLI::App app("Pelage grows fur on demand and renders it.", "pelage");
-  app.set_version_flag("--version", "pelage " + std::string(version()), "Print the version and exit");
-  app.require_subcommand(1);
-  app.footer("'pelage COMMAND --help' explains a command; 'pelage manual' explains the scene file.");
-  add_commands(app, options, texts);
-
-  check_command(arguments);
-  const CLI::App* chosen = &app;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == arguments[0]) chosen = command;
-  }
-  try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::CallForHelp&) {
-    out << chosen->help(chosen == &app ? "" : "pelage");
-    return {};
-  } catch (const CLI::CallForVersion&) {
-    out << "pelage " << version() << "\n";
-    return {};
-  } catch (const CLI::ExtrasError&) {
-    fail_extras(*chosen);
-  } catch (const CLI::ParseError& error) {
-    if (chosen == &app && app.remaining_size() > 0) fail_extras(app);
-    std::string message = error.what();
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    fail_arguments(message +
-                   (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));
-  }
-  check_file_names(*chosen);
+  const auto app =
+      make_parser("Pelage grows fur on demand and renders it.", "pelage",
+                  "'pelage COMMAND --help' explains a command; 'pelage manual' explains the scene file.");
+  add_commands(*app, options, texts);
+  if (!parse_command_line(*app, arguments, out)) return {};
   options.command = command_names().at(arguments[0]);
   interpret(texts, options);
   return options;

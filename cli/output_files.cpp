@@ -18,7 +18,7 @@ void check_replaces_none(const std::string& flag, const std::filesystem::path& o
   }
 }
 
-void check_stats(const Options& options, const std::vector<std::filesystem::path>& kept) {
+void check_stats(const RunOptions& options, const std::vector<std::filesystem::path>& kept) {
   if (options.stats) check_replaces_none("--stats", *options.stats, kept);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/run_options.h"
 
 namespace pelage {
 
@@ -15,7 +15,7 @@ void check_replaces_none(const std::string& flag, const std::filesystem::path& o
                          const std::vector<std::filesystem::path>& kept);
 
 /// Makes the same check for the file of `--stats`, if this flag is given.
-void check_stats(const Options& options, const std::vector<std::filesystem::path>& kept);
+void check_stats(const RunOptions& options, const std::vector<std::filesystem::path>& kept);
 
 /// Checks that `path` can be written; call it before long work. Throws Error (kFailed) when it cannot. Also
 /// removes temporary files that killed runs left in the same folder.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "cli/options.h"
+#include "cli/run_options.h"
 #include "cli/time_left.h"
 
 namespace pelage {

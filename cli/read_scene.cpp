@@ -3,11 +3,11 @@
 
 namespace pelage {
 
-SceneDescription read_scene(const Options& options, Progress& progress) {
+SceneDescription read_scene(const RunOptions& options, Progress& progress) {
   return read_scene(options, progress, rib_use(options.rib_in));
 }
 
-SceneDescription read_scene(const Options& options, Progress& progress, const RibUse& use) {
+SceneDescription read_scene(const RunOptions& options, Progress& progress, const RibUse& use) {
   SceneDescription scene = load_scene(options.input, options.overrides, use);
   for (const Problem& warning : scene.warnings)
     progress.warn(to_string(warning.position) + ": " + warning.message);

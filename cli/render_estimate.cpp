@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_estimate.h"
 
-#include <algorithm>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -9,9 +8,7 @@
 
 #include "base/counted.h"
 #include "base/memory_budget.h"
-#include "base/process_usage.h"
-#include "world/compose.h"
-#include "world/world.h"
+#include "world/run_estimate.h"
 
 namespace pelage {
 namespace {
@@ -66,44 +63,8 @@ nlohmann::ordered_json run_json(const RunEstimate& estimate, size_t i) {
 
 }  // namespace
 
-int64_t RunEstimate::peak_bytes() const {
-  int64_t peak = 0;
-  for (const FrameEstimate& e : estimates) peak = std::max(peak, e.peak_bytes());
-  return peak;
-}
-
-double RunEstimate::cpu_s() const {
-  double sum = loading_cpu_s + posing_cpu_s;
-  for (const FrameEstimate& e : estimates) sum += e.cpu_s();
-  return sum;
-}
-
-double RunEstimate::cpu_s(size_t i) const {
-  return loading_cpu_s + posing_cpu_s / static_cast<double>(std::max<size_t>(1, frames.size())) +
-         estimates[i].cpu_s();
-}
-
-RunEstimate estimate_run(const SceneDescription& scene, const std::vector<int>& frames,
-                         const std::optional<PixelBox>& region, Run& run) {
-  RunEstimate estimate;
-  const double began = cpu_seconds();
-  MemoryCharge film = reserve_film(scene, run.job(), region);
-  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-  film = {};  // estimate_frame() counts it
-  estimate.loading_cpu_s = cpu_seconds() - began;
-  for (const int frame : frames) {
-    const double posing = cpu_seconds();
-    const World world = run.stage("pose", [&] { return compose(scene, *assets, frame, run.job()); });
-    estimate.posing_cpu_s += cpu_seconds() - posing;
-    estimate.frames.push_back(frame);
-    estimate.estimates.push_back(
-        run.stage("estimate", [&] { return estimate_frame(world.scene, run.job(), region); }));
-  }
-  return estimate;
-}
-
 int print_estimate(const SceneDescription& scene, const Options& options, Run& run) {
-  const RunEstimate estimate = estimate_run(scene, scene.frames.frames, options.picture.region, run);
+  const RunEstimate estimate = estimate_run(scene, scene.frames.frames, options.picture.region, run.job());
   const int threads = run.workers().thread_count();
   if (options.json) {
     nlohmann::ordered_json json{{"estimate", 1},

@@ -20,7 +20,7 @@ ProcessUsage baseline() {
 
 }  // namespace
 
-Run::Run(const Options& options)
+Run::Run(const RunOptions& options)
     : statistics_{.process = baseline()},
       keeps_timeline_(options.sample_memory_s.has_value()),
       sampler_(ledger_, start_, options.sample_memory_s.value_or(kSampleMemory_s)),
@@ -31,7 +31,7 @@ double Run::seconds() const {
   return std::chrono::duration<double>(MemorySampler::Clock::now() - start_).count();
 }
 
-void Run::finish(const Options& options) {
+void Run::finish(const RunOptions& options) {
   ProcessUsage& process = statistics_.process;
   process.wall_s = seconds();
   process.cpu_s = cpu_seconds();

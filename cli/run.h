@@ -7,8 +7,8 @@
 #include "base/ledger.h"
 #include "base/memory_sampler.h"
 #include "base/parallel.h"
-#include "cli/options.h"
 #include "cli/progress_display.h"
+#include "cli/run_options.h"
 #include "cli/signals.h"
 #include "world/statistics.h"
 
@@ -17,7 +17,7 @@ namespace pelage {
 /// Context of a long-running command: threads, memory ledger, statistics, progress display and clock.
 class Run {
  public:
-  explicit Run(const Options& options);
+  explicit Run(const RunOptions& options);
 
   Workers& workers() { return workers_; }
   MemoryLedger& ledger() { return ledger_; }
@@ -35,7 +35,7 @@ class Run {
   }
 
   /// Completes the statistics and writes them to the file of `--stats`, if this flag is given.
-  void finish(const Options& options);
+  void finish(const RunOptions& options);
 
  private:
   class StageTimer {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -D OUT=file.cpp -D FOLDER=view/page -P EmbedPage.cmake
-# Writes a source file with the bytes of all files of a folder, for pelage::page_files().
+# cmake -D OUT=file.cpp -D FOLDER=view/page -D HEADER=view/page_files.h -D FUNCTION=page_files -P EmbedPage.cmake
+# Writes a source file with the bytes of all files of a folder, for pelage::FUNCTION(), which HEADER declares.
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*)
 list(SORT files)
 set(arrays)
@@ -17,7 +17,7 @@ foreach(name IN LISTS files)
   math(EXPR index "${index} + 1")
 endforeach()
 file(WRITE ${OUT} "// Made by cmake/EmbedPage.cmake.
-#include \"view/page_files.h\"
+#include \"${HEADER}\"
 
 namespace pelage {
 namespace {
@@ -28,7 +28,7 @@ ${table}};
 
 }  // namespace
 
-std::span<const PageFile> page_files() { return kFiles; }
+std::span<const PageFile> ${FUNCTION}() { return kFiles; }
 
 }  // namespace pelage
 ")

@@ -9,8 +9,7 @@ set(public_headers
   geom/strands.h geom/curve_bounds.h geom/io/strand_file.h geom/io/strand_reader.h
   render/fibre/fibre_material.h render/material/material.h
   post/pelage_post.h
-  world/world.h
-  lab/compare/compare_models.h lab/measure/experiments.h lab/report/report.h)
+  world/world.h)
 set(installed_headers)
 while(public_headers)
   list(POP_FRONT public_headers header)

@@ -46,6 +46,17 @@ function(pelage_library name)
   install(TARGETS pelage_${name} EXPORT pelage ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 
+# pelage_page(SOURCE FOLDER HEADER FUNCTION): makes SOURCE, a file of the build, which holds all files of FOLDER as
+# std::span<const PageFile> FUNCTION(). HEADER declares this function.
+function(pelage_page source folder header function)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*)
+  add_custom_command(
+    OUTPUT ${source}
+    COMMAND ${CMAKE_COMMAND} -D OUT=${CMAKE_CURRENT_BINARY_DIR}/${source} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR}/${folder}
+            -D HEADER=${header} -D FUNCTION=${function} -P ${PROJECT_SOURCE_DIR}/cmake/EmbedPage.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedPage.cmake)
+endfunction()
+
 # One test program. Each of its suites becomes a test of CTest's own, listed when CTest starts. With a sanitizer, where
 # every start of a program costs more than most suites, CTest runs it in a few shards instead.
 function(pelage_test_program target module label)

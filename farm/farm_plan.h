@@ -49,7 +49,4 @@ std::vector<PixelBox> divide_picture(int width, int height, int columns, int row
 /// measures the boxes of each other frame, which its regions share; else each render measures its own.
 std::vector<FarmTask> make_farm_plan(const FarmRequest& request);
 
-/// Returns a command as a line for a POSIX shell.
-std::string shell_line(const std::vector<std::string>& command);
-
 }  // namespace pelage

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/program.h"
+
 namespace pelage {
 namespace {
 

@@ -11,12 +11,12 @@ namespace pelage {
 
 /// How Slurm shall run the tasks of a shot.
 struct SlurmParams {
-  std::string folder;         ///< of the shot: scripts, logs, state; an absolute path
-  uint64_t render_bytes = 0;  ///< memory to reserve for a task that reads the scene
-  uint64_t merge_bytes = 0;   ///< memory to reserve for a merge
-  int retries = 9;            ///< how often a task that was stopped or killed is queued again
-  int warning_s =
-      60;  ///< seconds before the time limit at which Slurm signals a task to write its checkpoint
+  std::string folder;                          ///< of the shot: scripts, logs, state; an absolute path
+  uint64_t render_bytes = 0;                   ///< memory to reserve for a task that reads the scene
+  uint64_t merge_bytes = uint64_t{512} << 20;  ///< memory to reserve for a merge
+  int retries = 9;  ///< how often a task that was stopped or killed is queued again
+  /// Seconds before the time limit at which Slurm signals a task to write its checkpoint.
+  int warning_s = 60;
   std::vector<std::string> options;  ///< for each call of sbatch: --partition=P, --time=60 ...
 };
 

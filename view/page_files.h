@@ -2,17 +2,12 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "base/page_file.h"
 
 namespace pelage {
 
-/// A file of view/page/, built into the program.
-struct PageFile {
-  std::string_view name;  ///< "index.html"
-  std::string_view text;
-};
-
-/// Returns all files of the page.
+/// Returns all files of view/page/.
 std::span<const PageFile> page_files();
 
 }  // namespace pelage

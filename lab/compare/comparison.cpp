@@ -137,7 +137,7 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
   report.data = frame_table(comparison.frames);
 
   Picture sheet = contact_sheet(comparison.frames);
-  sheet.caption = "Every model under every light: contact_sheet.svg, and contact_sheet.png without labels.";
+  sheet.caption = "Every model under every light; contact_sheet.png has the pictures without labels.";
   Table frames = report.data;
   frames.caption =
       "Cost, noise and brightness. Noise at equal time is the noise after as many CPU seconds as the median "

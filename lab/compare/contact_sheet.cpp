@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "lab/report/canvas.h"
-#include "lab/report/svg.h"
 
 namespace pelage {
 namespace {

@@ -53,6 +53,9 @@ Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan,
 Measured measure_bounces(const SceneDescription& scene, int samples, const MeasureSetup& setup,
                          Progress& progress);
 
+/// Parts of the report of `measure lod`.
+inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};
+
 /// Compares reduced detail with full detail. `parts` holds names from kLodParts; empty: all parts.
 ///   crowd   cost of a whole crowd
 ///   detail  strands, working set, time and error by criterion, distance, blur and focus

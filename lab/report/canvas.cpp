@@ -7,6 +7,13 @@
 #include "base/check.h"
 
 namespace pelage {
+
+double text_width(std::string_view text, double size) {
+  const auto characters = std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  return 6.3 / 11.5 * size * static_cast<double>(characters);
+}
+
 Canvas::Canvas(int width, int height, Color ground) {
   PELAGE_CHECK(width > 0 && height > 0);
   picture_.width = width;

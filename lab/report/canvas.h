@@ -2,11 +2,15 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "lab/report/report.h"
 
 namespace pelage {
+
+/// Returns the approximate width in pixels of a text in browsers, for layout. `size`: of the font.
+double text_width(std::string_view text, double size);
 
 /// An sRGB picture on which pictures, lines and labels can be drawn. (0, 0) is the upper left corner. Drawing
 /// is clipped to the picture.
@@ -20,7 +24,7 @@ class Canvas {
   void draw(int x, int y, const Picture& picture);
   /// Draws an antialiased line, about 1.5 pixels wide.
   void line(double x0, double y0, double x1, double y1, Color color);
-  /// Adds text on top of the picture. Web pages and SVG files show it; PNG files omit it.
+  /// Adds text on top of the picture. Web pages show it; PNG files omit it.
   void label(Label label) { picture_.labels.push_back(std::move(label)); }
 
   const Picture& picture() const { return picture_; }

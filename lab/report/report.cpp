@@ -5,6 +5,11 @@
 
 namespace pelage {
 
+const char* quantity_name(Quantity quantity) {
+  constexpr const char* kNames[] = {"count", "seconds", "bytes", "rate", "ratio", "percent", "error"};
+  return kNames[static_cast<size_t>(quantity)];
+}
+
 Table select(const Table& table, const std::vector<std::string>& keys, std::string caption) {
   Table result{std::move(caption), {}, std::vector<std::vector<Cell>>(table.rows.size())};
   for (const std::string& key : keys) {

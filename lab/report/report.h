@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "lab/report/label.h"
-#include "lab/report/quantity.h"
-
 namespace pelage {
 
-// A report as data, independent of its file format. report_html.h, report_json.h and report_csv.h write it.
+// A report as data, independent of its file format. report_page.h, report_json.h and report_csv.h write it.
 // Numbers are in SI units and bytes. NaN means "unknown".
+
+/// The quantity that a number measures. It determines the unit and the format in which readers see the
+/// number.
+enum class Quantity {
+  kCount,    ///< an integer without unit
+  kSeconds,  ///< seconds, shown in s or ms
+  kBytes,    ///< bytes, shown in B, KiB, MiB or GiB
+  kRate,     ///< number per second
+  kRatio,    ///< a ratio without unit
+  kPercent,  ///< a fraction, shown as a percentage with one decimal
+  kError,    ///< a fraction, shown as a percentage with three decimals
+};
+/// Returns the name in data files: "count", "seconds" and so on.
+const char* quantity_name(Quantity quantity);
 
 struct Text {
   std::string text;
@@ -74,13 +86,24 @@ struct BarPlot {
   std::vector<std::string> notes = {};  ///< per group: text shown where a value is not finite; or empty
 };
 
+enum class TextAnchor { kStart, kMiddle, kEnd };
+
+/// Text on top of a picture. Lengths are in pixels; y points down.
+struct Label {
+  double x = 0, y = 0;  ///< position of the anchor, on the baseline
+  std::string text;
+  TextAnchor anchor = TextAnchor::kStart;
+  std::array<unsigned char, 3> color = {0, 0, 0};  ///< sRGB
+  double size = 14;                                ///< size of the font
+};
+
 /// Pixels for screens: 1 byte (grey) or 3 bytes (sRGB) each, in rows from the top.
 struct Picture {
   std::string caption;
   int width = 0, height = 0, channels = 3;
   std::vector<unsigned char> pixels;
   bool half = false;
-  std::vector<Label> labels = {};  ///< shown in web pages and SVG files; PNG files omit them
+  std::vector<Label> labels = {};  ///< shown in web pages; PNG files omit them
 };
 
 struct Paragraph {

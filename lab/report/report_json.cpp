@@ -10,6 +10,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The unit of raw numbers.
+const char* raw_unit(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kSeconds:
+      return "s";
+    case Quantity::kBytes:
+      return "bytes";
+    case Quantity::kRate:
+      return "1/s";
+    default:
+      return "";
+  }
+}
+
 Json cell_json(const Cell& cell) {
   if (const auto* text = std::get_if<Text>(&cell)) return text->text;
   const double number = std::get<double>(cell);

@@ -149,8 +149,12 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   for (const auto* list : {&setup_.arguments, &variant.arguments})
     run.command.insert(run.command.end(), list->begin(), list->end());
   run.load = load_average();
-  run.end = run_process(
-      run.command, log, [&] { return progress_.cancelled(); }, setup_.time_limit_s);
+  ProcessLimits limits;
+  limits.seconds = setup_.time_limit_s;
+  limits.cancelled = [&] { return progress_.cancelled(); };
+  ProcessSetup process{run.command};
+  process.log = log;
+  run.end = run_process(process, limits).end;
   run.statistics = RunStatistics::read(statistics);
   if (run.end.timed_out) {
     run.error = fmt::format("stopped after {:g} s", setup_.time_limit_s);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/process.h"
 #include "base/progress.h"
-#include "lab/runs/process.h"
 #include "lab/runs/run_statistics.h"
 
 namespace pelage {

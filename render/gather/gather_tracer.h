@@ -7,7 +7,7 @@
 
 #include "base/ledger.h"
 #include "base/stopwatch.h"
-#include "render/frame/gather_point_statistics.h"
+#include "render/frame/frame_statistics.h"
 #include "render/frame/tile_integrator.h"
 #include "render/gather/indirect_paths.h"
 #include "render/gather/light_sharing.h"

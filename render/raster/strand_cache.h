@@ -31,24 +31,24 @@ class StrandCache {
     if (held.handle == handle || held.tile == tile_ || bytes_ > kMaxBytes / 2) return;
     replace(held, handle, held.strand, copy);
   }
-  /// Stores the strand of a handle in `hit_geometry`. Calls copy(Strands&) if the strand is not kept here.
+  /// Stores the strand of a handle in `strand_of_hit`. Calls copy(Strands&) if the strand is not kept here.
   template <class Copy>
   void lend(const StrandHandle& handle, Strands& strand_of_hit, const Copy& copy) {
     Held& held = held_[index(handle)];
     if (lent_ != &held) {
-      take_back(hit_geometry);
-      std::swap(held.strand, hit_geometry);
+      take_back(strand_of_hit);
+      std::swap(held.strand, strand_of_hit);
       lent_ = &held;
     }
     if (held.handle == handle) return;
-    replace(held, handle, hit_geometry, copy);
+    replace(held, handle, strand_of_hit, copy);
     if (bytes_ > kMaxBytes) drop_others(held, strand_of_hit.bytes());
   }
   /// Returns the max memory, in bytes.
   static size_t bytes_bound() { return kCount * sizeof(Held) + kMaxBytes; }
-  /// Takes back the strand that was lent, if any. Call before other code uses `hit_geometry`.
+  /// Takes back the strand that was lent, if any. Call before other code uses `strand_of_hit`.
   void take_back(Strands& strand_of_hit) {
-    if (lent_) std::swap(lent_->strand, hit_geometry);
+    if (lent_) std::swap(lent_->strand, strand_of_hit);
     lent_ = nullptr;
   }
 

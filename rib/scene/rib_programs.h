@@ -7,11 +7,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/starter_thread.h"
 #include "base/temporary_folder.h"
 
 namespace pelage {
@@ -69,8 +67,7 @@ class RibPrograms {
   const RibProgramLimits limits_;
   std::mutex mutex_;  // guards the following
   std::shared_ptr<const TemporaryFolder> folder_;
-  std::optional<StarterThread> starter_;                      // starts all programs, and outlives them
-  std::map<std::string, std::unique_ptr<Program>> programs_;  // by command
+  std::map<std::string, std::unique_ptr<Program>> programs_;                              // by command
   std::map<std::pair<std::string, std::string>, std::weak_ptr<const RibReply>> replies_;  // command, request
   std::deque<std::pair<std::shared_ptr<const RibReply>, size_t>> kept_;                   // with their sizes
   size_t kept_bytes_ = 0, count_ = 0, all_bytes_ = 0;

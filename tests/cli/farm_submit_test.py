@@ -140,6 +140,15 @@ class FarmSubmit(ProgramTest):
         self.farm("submit", "scene.yaml", *SHOT)  # finished tasks end at once
         self.assertIn("is finished, skipped", (self.bin / "log").read_text())
 
+    def test_settings_of_the_user_hide_no_job(self):
+        self.farm("submit", "scene.yaml", *SHOT)
+        (self.bin / "queue").write_text("101 1 PENDING\n")
+        self.fake("squeue", '#!/bin/sh\n[ -n "$SQUEUE_STATES$SQUEUE_FORMAT" ] || cat "$FAKE/queue"\n')
+        os.environ.update(SQUEUE_STATES="RUNNING", SQUEUE_FORMAT="%i")
+        self.addCleanup(os.environ.pop, "SQUEUE_STATES")
+        self.addCleanup(os.environ.pop, "SQUEUE_FORMAT")
+        self.assertIn("1 job cancelled", self.farm("cancel", "farm")[0])
+
     # $STUBBORN: a job that cannot be cancelled, and makes the whole command fail before it does anything.
     STUBBORN = """#!/bin/sh
 case " $* " in

@@ -179,8 +179,6 @@ TEST(Options, NumbersAreFiniteAndInTheirRange) {
   EXPECT_EQ(parsed({"render", "a.yaml", "--scale", "2.5e-1"}).picture.scale, 0.25);
   for (const char* flag : {"--time-limit", "--scale"})
     EXPECT_NE(problem({"render", "a.yaml", flag, "0"}).find("greater than 0, got '0'"), std::string::npos);
-  EXPECT_NE(problem({"measure", "bounds", "a.yaml", "--time-limit", "nan"}).find("greater than 0"),
-            std::string::npos);
   EXPECT_NE(problem({"convert", "a", "b", "--default-width", "nan"}).find("greater than 0"),
             std::string::npos);
   EXPECT_NE(problem({"stereo", "a", "b", "--focal-pixels", "nan"}).find("greater than 0"), std::string::npos);
@@ -189,51 +187,6 @@ TEST(Options, NumbersAreFiniteAndInTheirRange) {
       std::string::npos);
   EXPECT_NE(problem({"render", "a", "--sample-memory", "nan"}).find("expected a number from 0.001 to 3600"),
             std::string::npos);
-}
-
-TEST(Options, OfMeasure) {
-  const Options options =
-      parsed({"measure", "residency", "s.yaml", "-o", "out", "--repeat", "5", "--set", "a=1"});
-  EXPECT_EQ(options.command, Command::kMeasure);
-  EXPECT_EQ(options.experiment, Experiment::kResidency);
-  EXPECT_EQ(options.input, "s.yaml");
-  EXPECT_EQ(options.output, "out");
-  EXPECT_EQ(options.repeat, 5);
-  EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
-  EXPECT_EQ(problem({"measure", "growht", "s"}), "unknown experiment 'growht'; did you mean 'growth'?");
-  EXPECT_EQ(problem({"measure", "scaling", "s"}),
-            "experiment 'scaling' does not exist yet; choose one of bounces, bounds, growth, lod, "
-            "residency, samplers and shading");
-  const Options lod = parsed({"measure", "lod", "s", "--parts", "crowd,dolly"});
-  EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
-  EXPECT_EQ(problem({"measure", "lod", "s", "--parts", "crowds"}),
-            "--parts: unknown part 'crowds'; did you mean 'crowd'?");
-  const Options shading = parsed({"measure", "shading", "s", "--samples", "64,2,64", "--reference-samples",
-                                  "8", "--parts", "gather,reuse"});
-  EXPECT_EQ(shading.experiment, Experiment::kShading);
-  EXPECT_EQ(shading.samples, (std::vector<int>{2, 64})) << "ascending, each once";
-  EXPECT_EQ(shading.reference_samples, 8);
-  EXPECT_EQ(shading.parts, (std::vector<std::string>{"gather", "reuse"}));
-  EXPECT_EQ(parsed({"measure", "shading", "s"}).samples, (std::vector<int>{4, 16, 64}));
-  EXPECT_NE(problem({"measure", "shading", "s", "--samples", "0"}), "");
-  EXPECT_EQ(parsed({"measure", "bounces", "s", "--samples", "8"}).experiment, Experiment::kBounces);
-  EXPECT_NE(problem({"measure", "shading", "s", "--reference-samples", "0"}), "");
-  EXPECT_EQ(problem({"measure", "shading", "s", "--parts", "gatehr"}),
-            "--parts: unknown part 'gatehr'; did you mean 'gather'?");
-  EXPECT_EQ(problem({"measure", "bounces", "s", "--parts", "gather"}),
-            "--parts: only lod and shading have parts");
-  EXPECT_NE(problem({"measure", "bounds"}), "");
-  EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
-}
-
-TEST(Options, OfCompare) {
-  const Options options =
-      parsed({"compare", "a.yaml", "-o", "out", "--models", "chiang,yan", "--set", "render.samples=2"});
-  EXPECT_EQ(options.command, Command::kCompare);
-  EXPECT_EQ(options.output, "out");
-  EXPECT_EQ(options.models, (std::vector<std::string>{"chiang", "yan"}));
-  EXPECT_TRUE(parsed({"compare", "a.yaml"}).models.empty());
-  EXPECT_THROW(parsed({"compare", "a.yaml", "--models", "chang"}), Error);
 }
 
 TEST(Options, HelpEverywhere) {
@@ -245,6 +198,8 @@ TEST(Options, HelpEverywhere) {
     }
   }
   EXPECT_NE(printed({"render", "--help"}).find("--frames"), std::string::npos);
+  for (const char* command : {"  measure ", "  compare "})
+    EXPECT_NE(printed({"--help"}).find(command), std::string::npos) << command;
   EXPECT_EQ(printed({"--version"}), std::string("pelage ") + version() + "\n");
 }
 

@@ -21,7 +21,7 @@ struct Warnings final : Progress {
 
 TEST(ReadScene, WarnsOfOldNamesWithTheirPlaces) {
   const TemporaryFolder folder;
-  Options options;
+  RunOptions options;
   options.input = (folder.path() / "s.yaml").string();
   std::ofstream(options.input) << "pelage: 1\nrender:\n  lod: {turned_away: false}\n";
   options.overrides = {{"render.lod.least_share", "0.1"}};

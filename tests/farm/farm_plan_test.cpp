@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/program.h"
 #include "world/frames.h"
 
 namespace pelage {
@@ -109,10 +110,6 @@ TEST(FarmPlan, BoxesCoverEachPixelOnce) {
     EXPECT_EQ(covered, std::vector<int>(covered.size(), 1)) << width << " " << columns;
   }
   EXPECT_EQ(divide_picture(1920, 1080, 4, 4).size(), 16u);
-}
-
-TEST(FarmPlan, AShellReadsBackTheWords) {
-  EXPECT_EQ(shell_line({"a", "", "b c", "it's", "$x"}), "a '' 'b c' 'it'\\''s' '$x'");
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ def command_lines(text):
             lines[-1] += " " + line.strip()
         else:
             lines.append(line.strip())
-    return [line for line in lines + code_spans(text) if re.match(r"(?:\./dev|(?:build/release/bin/)?pelage) \S", line)]
+    return [line for line in lines + code_spans(text) if re.match(r"(?:\./dev|(?:build/release/bin/)?pelage(?:-lab)?) \S", line)]
 
 
 def missing_files(document, text):

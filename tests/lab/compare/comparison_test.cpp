@@ -6,7 +6,7 @@
 #include "lab/compare/contact_sheet.h"
 #include "lab/compare/light_side.h"
 #include "lab/compare/single_fibre.h"
-#include "lab/report/svg.h"
+#include "lab/report/canvas.h"
 
 namespace pelage {
 namespace {

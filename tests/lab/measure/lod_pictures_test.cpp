@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "base/process.h"
 #include "base/temporary_folder.h"
 #include "image/exr.h"
 
@@ -38,9 +39,9 @@ TEST(LodPictures, DetailHasTheColoursOfTheScript) {
   const TemporaryFolder folder;
   const auto exr = folder.path() / "a.exr", ppm = folder.path() / "a.ppm";
   write_exr(exr, shares());
-  const std::string command =
-      std::string(PELAGE_SOURCE_DIR "/tools/exr_to_png ") + exr.string() + " " + ppm.string() + " lod";
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  const ProcessResult made =
+      run_process({{PELAGE_SOURCE_DIR "/tools/exr_to_png", exr.string(), ppm.string(), "lod"}});
+  ASSERT_TRUE(made.end.succeeded()) << made.errors;
   const std::string file = read_file(ppm);
   const auto picture = detail_picture(exr);
   ASSERT_TRUE(picture);

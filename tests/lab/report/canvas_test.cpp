@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/report/picture_svg.h"
-#include "lab/report/png.h"
-
 namespace pelage {
 namespace {
 
@@ -35,18 +32,6 @@ TEST(Canvas, LinesHaveTheirLengthWhereverTheyGo) {
   EXPECT_GT(reds(point), 0);
   point.line(NAN, 0, 1, 1, kRed);
   point.line(-1e9, -1e9, 1e9, 1e9, kRed);
-}
-
-TEST(PictureSvg, HoldsThePixelsAndTheWords) {
-  Canvas canvas(20, 10, kBlack);
-  canvas.label({5, 8, "R & TT", TextAnchor::kMiddle, kRed, 12});
-  const std::string svg = picture_svg(canvas.picture());
-  EXPECT_NE(svg.find("viewBox=\"0 0 20 10\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("href=\"data:image/png;base64," + base64(png_bytes(canvas.picture()))),
-            std::string::npos);
-  EXPECT_NE(svg.find("text-anchor=\"middle\" style=\"font-size:12px;fill:#ff0000\">R &amp; TT</text>"),
-            std::string::npos)
-      << svg;
 }
 
 }  // namespace

@@ -9,14 +9,10 @@
 #include "base/hash.h"
 #include "base/temporary_folder.h"
 #include "image/texture_library.h"
-#include "lab/report/axis_ticks.h"
-#include "lab/report/markup.h"
-#include "lab/report/plot_svg.h"
 #include "lab/report/png.h"
 #include "lab/report/report_csv.h"
-#include "lab/report/report_html.h"
 #include "lab/report/report_json.h"
-#include "lab/report/svg.h"
+#include "lab/report/report_page.h"
 
 namespace pelage {
 namespace {
@@ -27,38 +23,6 @@ Table odd_table() {
           {{Text{"plain"}, 3.0 * (1 << 20), 0.1},
            {Text{"a, \"quoted\"\nname"}, double(NAN), double(INFINITY)},
            {Text{"<script>"}, 9.0 * (1 << 20), -1.0 / 3}}};
-}
-
-TEST(Quantity, ChoosesUnitsThatReadWell) {
-  EXPECT_EQ(number_text(12345678, display_unit(Quantity::kCount, 12345678)), "12\u202f345\u202f678");
-  EXPECT_EQ(number_text(-1234, display_unit(Quantity::kCount, 1234)), "−1234");
-  EXPECT_EQ(display_unit(Quantity::kBytes, 3.0 * (1 << 20)).symbol, "MiB");
-  EXPECT_EQ(number_text(3.0 * (1 << 20), display_unit(Quantity::kBytes, 3.0 * (1 << 20))), "3.000");
-  EXPECT_EQ(number_text(0.05, display_unit(Quantity::kSeconds, 0.05)), "50.00");
-  EXPECT_EQ(number_text(0.25, display_unit(Quantity::kPercent, 1)), "25.0");
-  EXPECT_EQ(number_text(0.0022, display_unit(Quantity::kError, 0.64)), "0.220");
-  EXPECT_EQ(number_text(NAN, {}), "–");
-  EXPECT_EQ(number_text(-INFINITY, {}), "−∞");
-  EXPECT_EQ(number_text(-0.001, {1, "", 1}), "0.0");
-}
-
-TEST(AxisTicks, AreRoundAndWithin) {
-  EXPECT_EQ(linear_ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
-  EXPECT_EQ(log_ticks(3, 100), (std::vector<double>{5, 10, 20, 50, 100}));
-  EXPECT_EQ(log_ticks(1, 1e6).size(), 7u);
-  EXPECT_TRUE(linear_ticks(1, 1, 5).empty());
-  EXPECT_TRUE(linear_ticks(0, INFINITY, 5).empty());
-  EXPECT_TRUE(log_ticks(0, 5).empty());
-  EXPECT_EQ(tick_labels({0, 0.5, 1}, false), (std::vector<std::string>{"0.0", "0.5", "1.0"}));
-  EXPECT_EQ(tick_labels({0.5, 1, 20}, true), (std::vector<std::string>{"0.5", "1", "20"}));
-}
-
-TEST(Markup, IsEscapedAndWellFormed) {
-  EXPECT_EQ(escape_markup("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
-  EXPECT_EQ(escape_markup("Pelz – ×"), "Pelz – ×");
-  EXPECT_EQ(escape_markup(std::string_view("\x01\0x", 3)), "\uFFFD\uFFFDx");
-  EXPECT_EQ(escape_markup("\xff\xc3"), "\uFFFD\uFFFD");
-  EXPECT_EQ(escape_markup("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // a surrogate
 }
 
 TEST(ReportCsv, ReadsBackTheSame) {
@@ -85,65 +49,9 @@ TEST(ReportJson, HoldsNumbersAndNullsForWhatIsNone) {
   EXPECT_EQ(json.at("runs")[0].at("exit_code"), 4);
 }
 
-TEST(PlotSvg, LeavesGapsWhereNumbersAreMissing) {
-  LinePlot plot;
-  plot.lines = {{"a", {{0, 1}, {1, 2}, {2, NAN}, {3, 4}, {4, 5}, {5, INFINITY}}}};
-  const std::string svg = line_plot_svg(plot);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_EQ(svg.find("inf"), std::string::npos);
-  size_t lines = 0;
-  for (size_t at = 0; (at = svg.find("<polyline", at)) != std::string::npos; ++at) ++lines;
-  EXPECT_EQ(lines, 3u);  // two pieces, and the legend's
-}
-
-TEST(PlotSvg, HasNoNumberThatIsNoneEvenWithoutData) {
-  LinePlot lines;
-  lines.x.log = lines.y.log = true;
-  BarPlot bars;
-  bars.groups = {"a", "b"};
-  bars.series = {{"s", {NAN}}, {"t", {INFINITY, -3}}};
-  BarPlot stacked = bars;
-  stacked.stacked = true;
-  LinePlot areas;
-  areas.areas = {{"empty", {}}, {"longer", {{0, 1}}}};
-  for (const std::string& svg : {line_plot_svg(lines), bar_plot_svg(bars), bar_plot_svg(stacked),
-                                 bar_plot_svg({}), line_plot_svg(areas)}) {
-    EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;
-    EXPECT_EQ(svg.find("inf"), std::string::npos) << svg;
-    EXPECT_NE(svg.find("</svg>"), std::string::npos);
-  }
-}
-
-TEST(PlotSvg, ShowsTheSpreadAndNotesWhereThereIsNoNumber) {
-  BarPlot bars;
-  bars.groups = {"a", "b"};
-  bars.series = {{"s", {2, NAN}}};
-  const auto marks = [](const std::string& svg) {
-    size_t count = 0;
-    for (size_t at = 0; (at = svg.find("class=\"axis\"", at)) != std::string::npos; ++at) ++count;
-    return count;
-  };
-  const size_t plain = marks(bar_plot_svg(bars));
-  bars.spread = {{1, 3}, {NAN, NAN}};
-  bars.notes = {"", "refused"};
-  const std::string svg = bar_plot_svg(bars);
-  EXPECT_EQ(marks(svg), plain + 3);
-  EXPECT_NE(svg.find(">refused<"), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-}
-
-TEST(PlotSvg, StandsAloneWithItsColors) {
-  LinePlot plot;
-  plot.lines = {{"a", {{0, 1}, {1, 2}}}};
-  const std::string svg = line_plot_svg(plot), file = standalone_svg(svg);
-  EXPECT_EQ(svg.find("<style>"), std::string::npos);
-  EXPECT_NE(file.find(".line.s0 { stroke: #0072b2; }"), std::string::npos);
-  EXPECT_NE(plot_style(Paper::kLight), plot_style(Paper::kDark));
-}
-
 TEST(Png, IsWhatReadersExpect) {
   const std::string png = png_bytes({"", 1, 1, 1, {255}});
-  // Checked with an independent decoder (tests/cli/measure_test.py reads larger ones).
+  // Checked with an independent decoder (tests/lab/measure_test.py reads larger ones).
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
@@ -179,15 +87,67 @@ TEST(Base64, IsPadded) {
   EXPECT_EQ(base64(""), "");
 }
 
-TEST(ReportHtml, EscapesEverything) {
+/// The JSON of a page, as the browser reads it.
+nlohmann::json data_of(const std::string& page) {
+  const std::string begin = "<script id=\"report\" type=\"application/json\">", end = "</script>";
+  const size_t from = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(from, page.find(end, from) - from));
+}
+
+TEST(ReportPage, HoldsTheReportAsDataInWhichNoMarkupBegins) {
   Report report;
-  report.title = "<b>";
-  report.facts = {{"Arguments", "--set a='<i>'"}};
+  report.title = "</script><b>";
+  report.facts = {{"Arguments", "--set a='<!--<script>' \xff {{report.js}}"}};
   report.sections = {{"&", {odd_table(), Paragraph{"x < y"}}}};
-  const std::string html = report_html(report);
-  for (const char* raw : {"<b></title>", "<i>", "<script>", "x < y"})
-    EXPECT_EQ(html.find(raw), std::string::npos) << raw;
-  EXPECT_NE(html.find("memory (MiB)"), std::string::npos) << html;
+  const std::string page = report_page(report);
+  Report plain;
+  plain.facts = {{"", ""}};
+  const auto count = [](const std::string& text, const std::string& part) {
+    size_t found = 0;
+    for (size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  for (const char* markup : {"<script", "</script", "<!--", "<b>"})
+    EXPECT_EQ(count(page, markup), count(report_page(plain), markup)) << markup;
+  const auto data = data_of(page);
+  EXPECT_EQ(data.at("title"), "</script><b>");
+  EXPECT_EQ(data.at("facts")[0][1], "--set a='<!--<script>' \uFFFD {{report.js}}");
+  const auto& table = data.at("sections")[0].at("blocks")[0];
+  EXPECT_EQ(table.at("columns")[1].at("quantity"), "bytes");
+  EXPECT_EQ(table.at("rows")[0], nlohmann::json::parse(R"(["plain", 3145728.0, 0.1])"));
+  EXPECT_EQ(table.at("rows")[1], nlohmann::json::parse(R"(["a, \"quoted\"\nname", null, {"infinite": 1}])"));
+}
+
+TEST(ReportPage, HoldsPlotsAndPictures) {
+  Report report;
+  LinePlot lines;
+  lines.x = {"time", Quantity::kSeconds, true, 9};
+  lines.lines = {{"a", {{0, 1}, {1, NAN}}}};
+  BarPlot bars;
+  bars.groups = {"one"};
+  bars.series = {{"s", {-INFINITY}}};
+  bars.spread = {{1, 3}};
+  Picture picture{"p", 1, 1, 1, {255}};
+  picture.labels = {{1, 2, "R & TT", TextAnchor::kMiddle, {255, 0, 16}, 12}};
+  report.sections = {{"plots", {lines, bars, picture}}};
+  const auto blocks = data_of(report_page(report)).at("sections")[0].at("blocks");
+  EXPECT_EQ(blocks[0].at("kind"), "lines");
+  EXPECT_EQ(blocks[0].at("x"),
+            nlohmann::json::parse(R"({"label": "time", "quantity": "seconds", "log": true, "end": 9.0})"));
+  EXPECT_EQ(blocks[0].at("lines")[0].at("points"), nlohmann::json::parse("[[0.0, 1.0], [1.0, null]]"));
+  EXPECT_EQ(blocks[1].at("series")[0].at("values"), nlohmann::json::parse(R"([{"infinite": -1}])"));
+  EXPECT_EQ(blocks[1].at("spread"), nlohmann::json::parse("[[1.0, 3.0]]"));
+  EXPECT_EQ(blocks[2].at("source"), "data:image/png;base64," + base64(png_bytes(picture)));
+  EXPECT_EQ(blocks[2].at("labels")[0].at("anchor"), "middle");
+  EXPECT_EQ(blocks[2].at("labels")[0].at("color"), nlohmann::json::parse("[255, 0, 16]"));
+}
+
+TEST(ReportPage, LoadsNothing) {
+  const std::string page = report_page({});
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  for (const char* outside : {"src=\"", "@import", "<link", "fetch(", "url("})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_EQ(page.find("{{"), page.npos) << "a part is missing";
 }
 
 }  // namespace

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/slurm.h"
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/process.h"
+#include "base/program.h"
+#include "farm/shot_page.h"
+
+namespace pelage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs a program of Slurm. Variables by which a user can filter or format what it prints do not reach it.
+ProcessResult run_slurm(const std::string& program, std::vector<std::string> arguments) {
+  const auto path = find_program(program);
+  if (!path) throw Error(ErrorKind::kFailed, program + " is not in PATH: this machine has no Slurm");
+  arguments.insert(arguments.begin(), path->string());
+  ProcessSetup setup{std::move(arguments)};
+  for (const char* name :
+       {"ACCOUNT", "ARRAY", "CLUSTERS", "FEDERATION", "FORMAT", "FORMAT2", "JSON", "LICENSES", "LOCAL",
+        "NAMES", "PARTITION", "PRIORITY", "QOS", "SIBLING", "SORT", "STATES", "USERS", "YAML"})
+    setup.environment.push_back(std::string("SQUEUE_") + name);
+  ProcessLimits limits;
+  limits.seconds = 60;
+  return run_process(setup, limits);
+}
+
+std::string last_line(std::string text) {
+  text.resize(text.find_last_not_of('\n') + 1);
+  return text.substr(text.rfind('\n') + 1);
+}
+
+std::set<int64_t> jobs_in_queue(const fs::path& folder, const QueuedElements& queue) {
+  const std::vector<int64_t> numbers = read_job_numbers(folder);
+  std::set<int64_t> found;
+  for (const auto& [element, state] : queue) {
+    if (std::binary_search(numbers.begin(), numbers.end(), element.first)) found.insert(element.first);
+  }
+  return found;
+}
+
+/// Cancels jobs with as few commands as possible: one that fails is repeated for each half of its jobs.
+class Cancelling {
+ public:
+  void cancel(std::span<const int64_t> jobs) {
+    constexpr size_t kIds = 5000;  // of one command, whose text the system limits
+    for (; jobs.size() > kIds; jobs = jobs.subspan(kIds)) cancel_some(jobs.first(kIds));
+    if (!jobs.empty()) cancel_some(jobs);
+  }
+
+  std::vector<int64_t> failed;
+  std::string message;  ///< last line of the last command that failed for a single job
+
+ private:
+  void cancel_some(std::span<const int64_t> jobs) {
+    std::vector<std::string> numbers;
+    for (const int64_t job : jobs) numbers.push_back(std::to_string(job));
+    const ProcessResult result = run_slurm("scancel", std::move(numbers));
+    if (result.end.succeeded()) return;
+    if (const size_t half = jobs.size() / 2; half > 0) {
+      cancel_some(jobs.first(half));
+      cancel_some(jobs.subspan(half));
+      return;
+    }
+    failed.push_back(jobs.front());
+    message = last_line(result.errors);
+  }
+};
+
+void write_shot(const SlurmShot& shot) {
+  const fs::path folder = shot.params.folder;
+  for (const char* name : {"state", "logs", "tasks"}) fs::create_directories(folder / name);
+  write_file(folder / "plan.json", plan_json(shot.plan));
+  write_file(folder / "task.sh", task_script(shot.params));
+  for (const SlurmJob& job : shot.jobs) write_file(folder / "tasks" / job.name, task_list(shot.plan, job));
+  write_file(folder / "submit.sh", submit_script(shot.plan, shot.jobs, shot.params));
+  write_file(folder / "reserved", std::to_string(shot.params.render_bytes) + "\n");
+}
+
+}  // namespace
+
+fs::path shot_folder(const fs::path& given) {
+  const fs::path folder = fs::absolute(given).lexically_normal();
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+std::optional<QueuedElements> ask_slurm(const fs::path& folder) {
+  if (!find_program("squeue")) return {};
+  struct stat jobs {};
+  const uid_t owner = ::stat((folder / "jobs").c_str(), &jobs) == 0 ? jobs.st_uid : ::geteuid();
+  const ProcessResult result =
+      run_slurm("squeue", {"-h", "-r", "-u", std::to_string(owner), "-o", "%F %K %T"});
+  if (!result.end.succeeded()) return {};
+  return parse_queue(result.output);
+}
+
+void check_can_submit(const fs::path& folder) {
+  if (!find_program("sbatch")) {
+    throw Error(ErrorKind::kFailed,
+                "sbatch is not in PATH: this machine has no Slurm; `pelage farm plan` prints the tasks for "
+                "other queues");
+  }
+  std::error_code none;
+  if (const auto bytes = fs::file_size(folder / "jobs", none); none || bytes == 0) return;
+  const auto queue = ask_slurm(folder);
+  if (!queue) {
+    throw Error(ErrorKind::kFailed,
+                folder.string() +
+                    ": the queue does not answer whether earlier jobs of this shot are still "
+                    "in it; try again, or use another --dir");
+  }
+  if (!jobs_in_queue(folder, *queue).empty()) {
+    throw Error(ErrorKind::kArguments,
+                folder.string() + ": jobs of this shot are still in the queue; `pelage farm cancel " +
+                    folder.string() + "` ends them, or use another --dir");
+  }
+}
+
+std::string script_text(const SlurmShot& shot) {
+  const auto& [plan, params, jobs] = shot;
+  std::string text = "# " + params.folder + "/task.sh\n" + task_script(params) + "\n";
+  for (const SlurmJob& job : jobs)
+    text += "# " + params.folder + "/tasks/" + job.name + "\n" + task_list(plan, job) + "\n";
+  return text + "# " + params.folder + "/submit.sh\n" + submit_script(plan, jobs, params);
+}
+
+void submit_to_slurm(const SlurmShot& shot, const std::function<bool()>& cancelled) {
+  write_shot(shot);
+  const fs::path folder = shot.params.folder;
+  ProcessSetup setup{{"/bin/bash", (folder / "submit.sh").string()}};
+  setup.log = folder / "submit.log";
+  ProcessLimits limits;
+  limits.cancelled = cancelled;
+  if (run_process(setup, limits).end.succeeded()) return;
+  throw Error(ErrorKind::kFailed, "Slurm did not accept all jobs: " + last_line(end_of_log(setup.log)) +
+                                      "; `pelage farm cancel " + folder.string() +
+                                      "` cancels those that it did");
+}
+
+size_t cancel_in_slurm(const fs::path& folder) {
+  read_shot_state(folder, {}, 0);  // refuses other folders
+  if (!find_program("scancel"))
+    throw Error(ErrorKind::kFailed, "scancel is not in PATH: this machine has no Slurm");
+  const std::optional<QueuedElements> queue = ask_slurm(folder);
+  if (!queue) throw Error(ErrorKind::kFailed, "the queue does not answer; nothing was cancelled");
+  const std::set<int64_t> queued = jobs_in_queue(folder, *queue);
+  const std::vector<int64_t> jobs(queued.begin(), queued.end());
+  Cancelling cancelling;
+  cancelling.cancel(jobs);
+  if (!cancelling.failed.empty()) {
+    if (const auto now = ask_slurm(folder)) {  // jobs may have ended before they were cancelled
+      const std::set<int64_t> left = jobs_in_queue(folder, *now);
+      std::erase_if(cancelling.failed, [&](int64_t job) { return !left.contains(job); });
+    }
+  }
+  if (const size_t failed = cancelling.failed.size(); failed > 0) {
+    throw Error(ErrorKind::kFailed, fmt::format("{} cancelled, but scancel failed for {}: {}",
+                                                counted(static_cast<int64_t>(jobs.size() - failed), "job"),
+                                                fmt::join(cancelling.failed, ", "), cancelling.message));
+  }
+  return jobs.size();
+}
+
+}  // namespace pelage
