@@ -60,15 +60,17 @@ void add_fill_flag(CLI::App& command, PostFileParams& file, const char* help) {
   command.add_option("--fill", file.longest_fill, help)->check(CLI::Range(0, 65535))->type_name("PIXELS");
 }
 
+[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
+
 /// Whether `text` is the second of two words; false for the first; otherwise an error.
 bool is_second(const std::string& flag, const std::string& text, const std::vector<std::string>& words) {
   if (text.empty() || text == words[0]) return false;
   if (text == words[1]) return true;
-  fail_arguments(flag + " " + quote(text) + " is not known" + suggest(text, words));
+  fail(flag + " " + quote(text) + " is not known" + suggest(text, words));
 }
 
 void check_finite(const std::string& flag, float value) {
-  if (!std::isfinite(value)) fail_arguments(flag + ": expected a finite number");
+  if (!std::isfinite(value)) fail(flag + ": expected a finite number");
 }
 
 /// `vectors`: prefix of the vector flags.
@@ -148,8 +150,7 @@ void interpret_post(const PostTexts& texts, Options& options) {
   if (texts.convergence.empty() || texts.convergence == "infinite") return;
   const auto distance = parse_number(texts.convergence);
   if (!distance || !(*distance > 0)) {
-    fail_arguments("--convergence: expected a distance above 0 or 'infinite', got " +
-                   quote(texts.convergence));
+    fail("--convergence: expected a distance above 0 or 'infinite', got " + quote(texts.convergence));
   }
   options.stereo.convergence = static_cast<float>(*distance);
 }

@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-void print_estimate(const RunEstimate& estimate, int threads) {
+void print_text(const RunEstimate& estimate, int threads) {
   for (size_t i = 0; i < estimate.frames.size(); ++i) {
     const FrameEstimate& e = estimate.estimates[i];
     const auto part_if_any = [](const char* name, int64_t bytes) {
@@ -33,7 +33,7 @@ void print_estimate(const RunEstimate& estimate, int threads) {
   }
 }
 
-nlohmann::ordered_json run_json(const RunEstimate& estimate, size_t i) {
+nlohmann::ordered_json json_of(const RunEstimate& estimate, size_t i) {
   const FrameEstimate& e = estimate.estimates[i];
   return {{"frame", estimate.frames[i]},
           {"peak_bytes", e.peak_bytes()},
@@ -71,10 +71,10 @@ int print_estimate(const SceneDescription& scene, const Options& options, Run& r
                                 {"threads", threads},
                                 {"peak_bytes", estimate.peak_bytes()},
                                 {"cpu_s", estimate.cpu_s()}};
-    for (size_t i = 0; i < estimate.frames.size(); ++i) json["frames"].push_back(run_json(estimate, i));
+    for (size_t i = 0; i < estimate.frames.size(); ++i) json["frames"].push_back(json_of(estimate, i));
     std::cout << json.dump(2) << "\n";
   } else {
-    print_estimate(estimate, threads);
+    print_text(estimate, threads);
   }
   return 0;
 }

@@ -77,7 +77,7 @@ std::string details(const TaskState& task) {
 }
 
 /// The tasks of a frame, in the order of the plan.
-struct Frame {
+struct ShotFrame {
   std::vector<size_t> renders;
   std::optional<size_t> merge;
 
@@ -85,8 +85,8 @@ struct Frame {
   size_t last() const { return merge ? *merge : renders.front(); }
 };
 
-std::map<int, Frame> frames_of(const ShotState& shot) {
-  std::map<int, Frame> frames;
+std::map<int, ShotFrame> frames_of(const ShotState& shot) {
+  std::map<int, ShotFrame> frames;
   for (size_t i = 0; i < shot.plan.tasks.size(); ++i) {
     const FarmTask& task = shot.plan.tasks[i];
     if (!task.frame) continue;
@@ -101,7 +101,7 @@ std::map<int, Frame> frames_of(const ShotState& shot) {
 }
 
 /// The state of a frame: that of its least finished task.
-TaskStage stage_of(const ShotState& shot, const Frame& frame) {
+TaskStage stage_of(const ShotState& shot, const ShotFrame& frame) {
   constexpr TaskStage kOrder[] = {TaskStage::kFailed,      TaskStage::kLost,    TaskStage::kCancelled,
                                   TaskStage::kQueuedAgain, TaskStage::kRunning, TaskStage::kWaiting};
   if (shot.tasks[frame.last()].stage == TaskStage::kDone) return TaskStage::kDone;
@@ -113,7 +113,7 @@ TaskStage stage_of(const ShotState& shot, const Frame& frame) {
   return TaskStage::kWaiting;
 }
 
-size_t columns_of(const ShotState& shot, const Frame& frame) {
+size_t columns_of(const ShotState& shot, const ShotFrame& frame) {
   size_t columns = 0;
   for (const size_t i : frame.renders) {
     const auto& region = shot.plan.tasks[i].region;
@@ -122,7 +122,8 @@ size_t columns_of(const ShotState& shot, const Frame& frame) {
   return std::max<size_t>(1, columns);
 }
 
-std::string frame_html(const ShotState& shot, int number, const Frame& frame, const PagePictures& pictures) {
+std::string frame_html(const ShotState& shot, int number, const ShotFrame& frame,
+                       const PagePictures& pictures) {
   const auto picture = pictures.find(number);
   double busy_s = 0, cpu_s = 0;
   int64_t peak = 0;

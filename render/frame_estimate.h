@@ -7,9 +7,19 @@
 #include "base/job.h"
 #include "image/exr.h"
 #include "render/scene/render_scene.h"
-#include "render/shadow_estimate.h"
 
 namespace pelage {
+
+/// Memory (in bytes) and CPU time (in seconds) of what a frame prepares to save shadow rays: skin
+/// balls.
+struct ShadowEstimate {
+  int64_t making_bytes = 0;  ///< while balls are made, before the first ray
+  int64_t held_bytes = 0;    ///< until the end of the frame
+  double cpu_s = 0;
+};
+
+/// Makes the balls of a few skins, and computes the others from their sizes.
+ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job);
 
 /// Memory (in bytes) and CPU time (in seconds) that rendering a frame will take, computed without tracing a
 /// ray. The caller has already posed the scene; what this took is measured, not estimated.

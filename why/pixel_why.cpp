@@ -84,7 +84,7 @@ MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& f
         why.parameters = P::schema().describe(params);
       },
       item.value);
-  why.color = FrameShading(frame).color(surface.hit, surface.met);
+  why.color = FrameShading(frame).color(surface.hit, surface.hit_geometry);
   if (is_strand) why.opacity = opacity_at(frame, surface);
   return why;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/assets.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,12 @@
 
 #include "base/file_stamp.h"
 #include "base/hash.h"
+#include "base/job.h"
 #include "base/memory_budget.h"
 #include "geom/io/obj_file.h"
+#include "procedurals/crowd/crowd.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
-#include "world/crowds.h"
 #include "world/frame_characters.h"
 #include "world/map_check.h"
 #include "world/scene_schema.h"
@@ -20,6 +22,57 @@
 
 namespace pelage {
 namespace {
+
+size_t character_index(const SceneDescription& scene, const std::string& name) {
+  const auto& items = scene.characters.items;
+  return static_cast<size_t>(
+      std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == name; }) -
+      items.begin());  // load_scene checked that it exists
+}
+
+/// Memory of a crowd's animals in a frame, assuming prototypes in equal numbers.
+int64_t bytes_in_frame(const SceneDescription& scene, const CrowdParams& crowd,
+                       const std::vector<int64_t>& drawn_bytes) {
+  double sum = 0;
+  for (const NameReference& of : crowd.of)
+    sum += static_cast<double>(drawn_bytes[character_index(scene, of.name)]);
+  return static_cast<int64_t>(sum / static_cast<double>(crowd.of.size()) * static_cast<double>(crowd.count));
+}
+
+std::vector<Footprint> footprints_of(const SceneDescription& scene, const CrowdParams& crowd) {
+  std::vector<Footprint> footprints;
+  for (const NameReference& of : crowd.of)
+    footprints.push_back(scene.characters.find(of.name)->value.footprint);
+  return footprints;
+}
+
+/// Places the crowds of a scene one after the other. Each crowd keeps its distance from the animals of
+/// earlier crowds. Before placing any animal, throws Error (kMemory) if placing a crowd, or rendering all
+/// crowds up to it, does not fit `render.memory`. Passes on the errors of make_crowd(). `drawn_bytes`: for
+/// each character of the scene, in order, the memory of one animal in a frame (frame_character_bytes()).
+std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
+                                                  const std::vector<int64_t>& drawn_bytes, const Job& job) {
+  int64_t in_frame = 0;
+  size_t placed = 0;
+  for (const auto& [name, position, params] : scene.crowds.items) {
+    in_frame += bytes_in_frame(scene, params, drawn_bytes);
+    const int64_t making = crowd_temporary_bytes(params, footprints_of(scene, params), placed);
+    require_memory(job.ledger, std::max(making, in_frame),
+                   fmt::format("crowd '{}' with {} animals", name, params.count));
+    placed += static_cast<size_t>(params.count);
+  }
+  std::vector<std::vector<CrowdMember>> crowds;
+  std::vector<PlacedFootprint> taken;
+  const bool others_follow = scene.crowds.items.size() > 1;
+  for (const auto& [name, position, params] : scene.crowds.items) {
+    const std::vector<Footprint> footprints = footprints_of(scene, params);
+    crowds.push_back(make_crowd(name, position, params, footprints, job, taken));
+    if (!others_follow) break;
+    for (const CrowdMember& member : crowds.back())
+      taken.push_back(placed_footprint(member, footprints[member.prototype]));
+  }
+  return crowds;
+}
 
 // Hashes of everything from which an asset is made: its part of the scene, and the stamps of its files. Equal
 // keys mean equal assets within one process. Take a key before the files are read: if a file changes

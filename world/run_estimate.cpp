@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/process_usage.h"
-#include "base/progress_stage.h"
+#include "base/progress.h"
 #include "world/compose.h"
 #include "world/world.h"
 

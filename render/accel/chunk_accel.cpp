@@ -122,12 +122,12 @@ class ChunkAccel::Visits {
       }
       const bool resident = chunks_.is_resident(chunk);
       uint32_t cells_hit = kUnknown;
-      entry = enter(chunk, entry, resident, hit_geometry);
+      entry = enter(chunk, entry, resident, cells_hit);
       if (!reaches(entry)) continue;
       if (resident) {
         goes_on = visit_one(chunk);
       } else {
-        scratch_.waiting.push_back({entry, hit_geometry, chunk});
+        scratch_.waiting.push_back({entry, cells_hit, chunk});
       }
     }
     counts_.box_tests += walk_.box_tests();

@@ -9,7 +9,6 @@
 #include "cache/residency_counts.h"
 #include "procedurals/bounds/chunk_bounds.h"
 #include "render/accel/trace_counts.h"
-#include "render/frame/occlusion_counts.h"
 #include "render/frame/ray_meter.h"
 #include "render/frame/tile_costs.h"
 

@@ -7,7 +7,6 @@
 #include "base/hash.h"
 #include "lod/lod_view.h"
 #include "render/frame/rest_place.h"
-#include "render/gather/gather_point_level.h"
 
 namespace pelage {
 namespace {

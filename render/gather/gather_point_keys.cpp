@@ -8,7 +8,7 @@
 
 #include "base/hash.h"
 #include "render/frame/skin_point.h"
-#include "render/gather/gather_point_level.h"
+#include "render/gather/coat_cells.h"
 
 namespace pelage {
 namespace {

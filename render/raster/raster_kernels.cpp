@@ -48,9 +48,9 @@ HWY_INLINE bool draw_piece_with(const RasterTarget& target, std::span<const Tile
   for (const TileLines::Run& run : runs) {
     for (size_t i = run.begin; i < run.end; i += lanes) {
       const M hits = kernel.may_meet(i, hn::FirstN(kFloats, run.end - i));
-      if (hn::AllFalse(kFloats, hit_geometry)) continue;
+      if (hn::AllFalse(kFloats, hits)) continue;
       const auto numbers = hn::Iota(kWords, static_cast<uint32_t>(i));
-      count += hn::CompressStore(numbers, hn::RebindMask(kWords, hit_geometry), kWords, lines + count);
+      count += hn::CompressStore(numbers, hn::RebindMask(kWords, hits), kWords, lines + count);
       if (count < lanes) continue;
       changed |= kernel.draw(lines, lanes);
       count -= lanes;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/job.h"
+#include "geom/limit_surface.h"
+#include "image/field.h"
 #include "rib/host/coat_rib.h"
 #include "rib/host/rib_file.h"
 #include "world/assets.h"
@@ -39,5 +41,10 @@ struct SceneRibSource {
 std::vector<std::filesystem::path> write_scene_rib(const std::filesystem::path& output,
                                                    const SceneRibSource& source,
                                                    const SceneRibOptions& options, const Job& job);
+
+/// Returns the mean colour of a field on a skin at rest, for renderers that cannot evaluate the field: the
+/// mean of the colours at the middles of the faces, weighted by the areas of the faces. Maps must have been
+/// loaded. A skin without area has the mean of its faces.
+Rgb mean_color(const Field& color, const LimitSurface& rest);
 
 }  // namespace pelage

@@ -5,8 +5,8 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/temporary_folder.h"
-#include "groom/cache/frozen_growth.h"
 #include "groom/cache/frozen_leaf_writer.h"
+#include "groom/cache/strand_layer.h"
 #include "tests/fuzz/corpus.h"
 
 namespace pelage {

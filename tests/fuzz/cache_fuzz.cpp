@@ -7,8 +7,8 @@
 #include "base/content_store.h"
 #include "base/error.h"
 #include "cli/info.h"
-#include "groom/cache/frozen_growth.h"
 #include "groom/cache/frozen_leaf.h"
+#include "groom/cache/strand_layer.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace pelage {

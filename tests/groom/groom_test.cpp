@@ -11,6 +11,7 @@
 #include "geom/io/strand_file.h"
 #include "geom/tessellation.h"
 #include "tests/geom/cages.h"
+#include "tests/groom/cached_coats.h"
 #include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
@@ -18,18 +19,6 @@
 
 namespace pelage {
 namespace {
-
-constexpr const char* kEveryFrozenOperator =
-    "- length: {value: {ramp: {along: y, knots: [[-1, 0.2], [1, 0.5]]}}, variation: 0.3}\n"
-    "- comb: {direction: [0, -1, 0.3], lift: 0.3, curve: 0.5}\n"
-    "- bend: {direction: [1, 0, 0], angle: 30}\n"
-    "- clump: {spacing: 0.3, amount: 0.6, variation: 0.3, strays: 0.1, levels: [{spacing: 0.1, amount: "
-    "0.5}]}\n"
-    "- curl: {radius: 0.02, turns: 2}\n"
-    "- frizz: {amplitude: 0.01, frequency: 3}\n"
-    "- noise: {amplitude: 0.05, frequency: 2}\n"
-    "- width: {root: 0.008, tip: 0.001, variation: 0.2}\n"
-    "- color: {value: {ramp: {along: strand, knots: [[0, [0, 1, 0]], [1, [1, 0, 0]]]}}, variation: 0.5}\n";
 
 class GroomTest : public OperatorTest {
  protected:

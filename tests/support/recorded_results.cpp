@@ -64,6 +64,16 @@ std::string text_of(const RecordedResults::Versions& versions) {
   return text;
 }
 
+/// Whether a version is smaller than the recorded one of the same stage. Caches of that version may exist.
+bool is_lowered(const RecordedResults::Versions& versions, const std::string& recorded) {
+  for (const auto& [stage, version] : versions) {
+    const std::string text = ", " + recorded, name = ", " + stage + " ";
+    const size_t at = text.find(name);
+    if (at != std::string::npos && std::stoi(text.substr(at + name.size())) > version) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void StageResult::add_numbers(const std::string& name, std::span<const double> values,
@@ -153,27 +163,37 @@ void RecordedResults::check(const std::string& stage, const Versions& versions, 
                             const StageResult& result) {
   const Entry now{machine(), text_of(versions), to_string(result.exact_.digest()), result.lists_};
   const auto recorded = entries_.find(stage);
-  const std::string record =
-      "run this test once with PELAGE_RECORD_RESULTS=1 and commit tests/support/recorded_results.txt";
-  if (recorded != entries_.end() && recorded->second.versions == now.versions) {
-    const std::string changed = difference(recorded->second, now);
-    if (changed.empty()) return;
-    ADD_FAILURE()
-        << "Stage '" << stage << "' gives other results than those recorded with the same versions ("
-        << now.versions << "): " << changed
-        << ". Users' caches would keep the old results. If the change is wanted, raise the version of "
-           "the first stage that fails here (for this one, "
-        << change << "), then " << record << ".";
+  const bool is_known = recorded != entries_.end() && recorded->second.versions == now.versions;
+  const std::string changed = is_known ? difference(recorded->second, now) : "";
+  if (is_known && changed.empty()) return;
+  if (recorded != entries_.end() && is_lowered(versions, recorded->second.versions)) {
+    ADD_FAILURE() << "Stage '" << stage << "' has the versions " << now.versions << ", but was recorded with "
+                  << recorded->second.versions
+                  << ": a version must not fall, because caches of it may exist.";
     return;
   }
-  if (std::getenv("PELAGE_RECORD_RESULTS")) {
+  const char* const recording = std::getenv("PELAGE_RECORD_RESULTS");
+  if (recording && (!is_known || recording == stage)) {
     entries_[stage] = now;
     write();
     return;
   }
-  ADD_FAILURE() << "Stage '" << stage << "' with the versions " << now.versions << " is not recorded"
-                << (recorded == entries_.end() ? "" : ", only with " + recorded->second.versions) << "; "
-                << record << ".";
+  const std::string record =
+      "run this test once with PELAGE_RECORD_RESULTS=1 and commit tests/support/recorded_results.txt";
+  if (is_known) {
+    ADD_FAILURE()
+        << "Stage '" << stage << "' gives other results than those recorded with the same versions ("
+        << now.versions << "): " << changed
+        << ". Users' caches would keep the old results. If the change is wanted, raise the version of the "
+           "first stage that fails here (for this one, "
+        << change << "), then " << record
+        << ". If only the input changed that this test gives to the stage, set PELAGE_RECORD_RESULTS to "
+           "the name of the stage instead.";
+  } else {
+    ADD_FAILURE() << "Stage '" << stage << "' with the versions " << now.versions << " is not recorded"
+                  << (recorded == entries_.end() ? "" : ", only with " + recorded->second.versions) << "; "
+                  << record << ".";
+  }
 }
 
 }  // namespace pelage

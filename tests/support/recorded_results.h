@@ -50,8 +50,9 @@ class StageResult {
 /// its versions are the recorded ones. On machines whose library of functions gives the same bits as where
 /// the results were recorded, results must be equal in every bit; on others, nearly equal.
 ///
-/// With the environment variable PELAGE_RECORD_RESULTS set, check() records the results of stages that are
-/// new or have other versions than before.
+/// With the environment variable PELAGE_RECORD_RESULTS=1, check() records the results of stages that are new
+/// or have higher versions than before. With the name of a stage as its value, check() records this stage in
+/// any case: for a test that has given it another input.
 class RecordedResults {
  public:
   using Versions = std::vector<std::pair<std::string, int>>;  ///< of a stage and those before it: "clump", 1

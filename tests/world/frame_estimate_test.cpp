@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "render/frame/skin_shadows.h"
-#include "render/shadow_estimate.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
 #include "world/world.h"

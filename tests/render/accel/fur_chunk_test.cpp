@@ -156,9 +156,9 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
       const Hit hit = accel->closest(ray, thread);
       if (hit.kind != HitKind::kStrand) continue;
       const Strands& strand_of_hit = thread.hit_geometry.strand;
-      ASSERT_EQ(met.id(0), hit.strand_id);
+      ASSERT_EQ(strand_of_hit.id(0), hit.strand_id);
       // The ray passes the axis at h radii.
-      const StrandPoint at = strand_point(hit_geometry, 0, hit.segment, hit.u, ray.time);
+      const StrandPoint at = strand_point(strand_of_hit, 0, hit.segment, hit.u, ray.time);
       const V3f beside = ray.origin + hit.distance * ray.direction - at.position;
       EXPECT_NEAR(beside.length(), std::abs(hit.v) * at.radius, 1e-4f + 0.02f * at.radius);
       // Among the strands of its id, one is the same.
@@ -169,13 +169,13 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
         for (size_t s = 0; s < fur->strands.strand_count(); ++s) {
           const uint32_t segments = segment_count(fur->strands.basis(), fur->strands.strand_points(s));
           if (fur->strands.id(s) != hit.strand_id ||
-              segments != segment_count(met.basis(), met.strand_points(0)))
+              segments != segment_count(strand_of_hit.basis(), strand_of_hit.strand_points(0)))
             continue;
           double off = 0;
           for (uint32_t k = 0; k < segments; ++k) {
             for (float time : {0.0f, 0.4f, 1.0f}) {
               const CubicSegment a = bezier_segment_at(fur->strands, s, k, time),
-                                 b = bezier_segment_at(hit_geometry, 0, k, time);
+                                 b = bezier_segment_at(strand_of_hit, 0, k, time);
               for (size_t p = 0; p < 4; ++p) {
                 // Inner points are the ends plus two snapped differences.
                 const V3f d = (p == 0 || p == 3 ? 1.0f : 0.5f) * (a.p[p] - b.p[p]);

@@ -22,7 +22,7 @@ constexpr uint32_t kSamples = 64;
 HitGeometry strand(float length) {
   HitGeometry hit_geometry;
   hit_geometry.strand = one_strand({{0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}}, 0.01f);
-  return met;
+  return hit_geometry;
 }
 
 /// Gather points that a strand has within the given part of its length, and how often each is chosen.
@@ -120,7 +120,7 @@ HitGeometry skin_triangle() {
   hit_geometry.triangle.triangles = {0, 1, 2};
   hit_geometry.triangle.vertex_uv = {V2f(0, 0), V2f(0.5f, 0), V2f(0, 0.5f)};
   hit_geometry.triangle.faces = {5};
-  return met;
+  return hit_geometry;
 }
 
 TEST(GatherPointKeys, AFaceOfASkinHasAGridOfGatherPoints) {

@@ -74,7 +74,7 @@ struct RasterScene : PathScene {
             const Ray ray = samples.sample(x, y, i, stream).ray;
             const Hit drawn = raster.closest(pixel, i, drawing, scratch), hit = accel.closest(ray, tracing);
             const bool same = is_same(hit, drawn);
-            if (same && hit) expect_same_geometry(tracing.met, drawing.met, hit);
+            if (same && hit) expect_same_geometry(tracing.hit_geometry, drawing.hit_geometry, hit);
             ++result.samples;
             result.hits += hit ? 1 : 0;
             result.drawn_hits += drawn ? 1 : 0;

@@ -83,13 +83,13 @@ TEST(FurBesideEmbree, meets_the_same_segments) {
     }
     different[rate == 4 ? 0 : rate == 8 ? 1 : 2] = static_cast<double>(others);
   }
-  EXPECT_GT(hit_geometry, rays.size() / 4);
-  EXPECT_LT(different[2], 0.01 * static_cast<double>(hit_geometry));
+  EXPECT_GT(met, rays.size() / 4);
+  EXPECT_LT(different[2], 0.01 * static_cast<double>(met));
   // Embree's pieces stray from the curve by the square of their length.
   EXPECT_GT(different[0], 3 * different[1]);
   EXPECT_GT(different[1], 2 * different[2]);
   // Across, they differ where a strand runs almost along the ray.
-  EXPECT_LT(static_cast<double>(turned), 1e-3 * static_cast<double>(hit_geometry));
+  EXPECT_LT(static_cast<double>(turned), 1e-3 * static_cast<double>(met));
 }
 
 }  // namespace
