@@ -41,17 +41,20 @@ void close_if_open(int& descriptor) {
 }
 
 /// Returns a descriptor of the same file that is none of the standard streams, even if this process has
-/// closed these. Closes `number`.
+/// closed these. Closes `number`. Throws Error when the process may have no more descriptors.
 int above_standard(int number) {
   if (number < 0 || number > STDERR_FILENO) return number;
   const int above = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int problem = errno;
   ::close(number);
+  if (above < 0) fail("cannot duplicate a descriptor", problem);
   return above;
 }
 
 void make_pipe(int& read, int& write) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot create a pipe", errno);
+  write = ends[1];  // closed by the owner if the next line throws
   read = above_standard(ends[0]);
   write = above_standard(ends[1]);
 }
@@ -156,8 +159,10 @@ struct Process::Launch {
   const pid_t parent = ::getpid();
 
   void open_stream(size_t stream, ProcessStream kind, int& ours) {
-    if (kind == ProcessStream::kNone)
+    if (kind == ProcessStream::kNone) {
       streams[stream] = above_standard(::open("/dev/null", O_RDWR | O_CLOEXEC));
+      if (streams[stream] < 0) fail("cannot open /dev/null", errno);
+    }
     if (kind != ProcessStream::kPiped) return;
     if (stream == STDIN_FILENO) {
       make_pipe(streams[stream], ours);
@@ -171,6 +176,7 @@ struct Process::Launch {
     streams[2] = above_standard(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (streams[2] < 0) fail(log.string() + ": cannot be written", errno);
     streams[1] = ::fcntl(streams[2], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (streams[1] < 0) fail("cannot duplicate a descriptor", errno);
   }
 
   /// Runs in the new process, before the program: must not allocate or lock.

@@ -52,20 +52,12 @@ void check_models(const std::vector<std::string>& models) {
 
 void add_experiment_flags(CLI::App& measure, LabOptions& options) {
   measure
-      .add_option("--characters", options.characters,
-                  "lod: number of full-detail characters in each run; the cost of the whole crowd is "
-                  "extrapolated from these runs (default: 10,20,40)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N,N");
-  measure
       .add_option(
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "
           "beside path (of splatted, adaptive, gather, visibility, reuse, spacing, skin_spacing, cells, "
-          "light_rays, paths, cache, no_cache, drawn, screen_door, gather_screen_door, occlusion_detail, "
-          "gather_occlusion_detail, skin_ball, together and others: see docs/MEASURE.md)")
+          "light_rays, paths, cache, no_cache, drawn, screen_door, gather_screen_door, skin_ball, together "
+          "and others: see docs/MEASURE.md)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");

@@ -23,8 +23,6 @@ struct LabOptions : RunOptions {
   int repeat = 3;                               ///< measure: runs of each variant
   double time_limit_s = 600;                    ///< measure: a run that takes longer is stopped
 
-  /// For `measure lod`: numbers of characters with all their hair, one run each.
-  std::vector<int> characters{10, 20, 40};
   std::vector<std::string> parts;  ///< measure lod, shading: parts of the report; empty: all parts
 
   /// For `measure shading`: samples per pixel, one run of each variant per count.

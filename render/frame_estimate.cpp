@@ -116,7 +116,7 @@ ResidentChunksOptions options_of(const RenderScene& scene, const FrameChunks& ch
   return options;
 }
 
-/// Adds the fine boxes of leaves, and the memory and time of measuring them.
+/// Adds the cell bounds of leaves, and the memory and time of measuring them.
 void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Job& job, Kind& fur,
                    FrameEstimate& estimate) {
   const BoundingStrategy strategy = scene.render.bounds;

@@ -55,31 +55,31 @@ class LiveRenderer::Watch final : public FrameWatch {
   Watch(LiveRenderer& renderer, const SceneEdit& edit, bool is_preview)
       : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
 
-  void passed(const Film& film, const PassState& state) override {
-    ViewState& desk = renderer_.desk_;
+  void passed(const Film& film, const PassState& pass) override {
+    ViewState& state = renderer_.state_;
     std::vector<std::string> names;
     Picture picture;
     picture.width = film.width();
     picture.height = film.height();
-    picture.grid = state.grid;
-    picture.full = state.full;
-    picture.samples = state.samples;
+    picture.grid = pass.grid;
+    picture.full = pass.full;
+    picture.samples = pass.samples;
     picture.layers = film_layers(
-        film, [&](const std::string& layer) { return desk.is_wanted(layer); }, &names);
-    desk.publish(std::move(picture));
+        film, [&](const std::string& layer) { return state.is_wanted(layer); }, &names);
+    state.publish(std::move(picture));
     const int64_t regrown = renderer_.strands_regrown();
-    desk.update([&](ViewStatus& status) {
+    state.update([&](ViewStatus& status) {
       if (status.first_pixels_s == 0) status.first_pixels_s = seconds_since(edit_.noticed);
-      status.mean_samples = state.mean_samples;
+      status.mean_samples = pass.mean_samples;
       status.layers = std::move(names);
       status.strands_regrown = regrown;
     });
     if (!is_preview_) renderer_.answer_questions();
     // What follows is better seen in the picture itself.
-    if (is_preview_ && state.grid <= 2) renderer_.preview_is_over_ = true;
+    if (is_preview_ && pass.grid <= 2) renderer_.preview_is_over_ = true;
   }
-  std::optional<PixelBox> region() const override { return renderer_.desk_.control().region(); }
-  uint32_t region_version() const override { return renderer_.desk_.control().region_version(); }
+  std::optional<PixelBox> region() const override { return renderer_.state_.control().region(); }
+  uint32_t region_version() const override { return renderer_.state_.control().region_version(); }
 
  private:
   LiveRenderer& renderer_;
@@ -87,13 +87,13 @@ class LiveRenderer::Watch final : public FrameWatch {
   const bool is_preview_;
 };
 
-LiveRenderer::LiveRenderer(ViewState& desk, int threads)
-    : desk_(desk),
+LiveRenderer::LiveRenderer(ViewState& state, int threads)
+    : state_(state),
       workers_(threads),
-      progress_(desk, ledger_, [this] { return must_end() || preview_is_over_; }),
+      progress_(state, ledger_, [this] { return must_end() || preview_is_over_; }),
       loaded_(std::make_unique<Loaded>(ledger_, progress_)),
       thread_([this] { run(); }) {
-  desk_.why().on_ask([this] {
+  state_.why().on_ask([this] {
     // With the lock, so that the question is not missed between the test of the thread and its sleep.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
@@ -101,14 +101,14 @@ LiveRenderer::LiveRenderer(ViewState& desk, int threads)
 }
 
 LiveRenderer::~LiveRenderer() {
-  desk_.why().on_ask({});
+  state_.why().on_ask({});
   {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
   }
   changed_.notify_all();
   thread_.join();
-  desk_.discard_frame();  // its film is charged to ledger_
+  state_.discard_frame();  // its film is charged to ledger_
 }
 
 void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {
@@ -118,7 +118,7 @@ void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {
     waiting_ = true;
     // Clear the state after setting `waiting_`, so that the render that is ending does not report completion,
     // and before the thread takes the edit.
-    desk_.update([](ViewStatus& status) {
+    state_.update([](ViewStatus& status) {
       status.at_rest = false;
       status.render_error.clear();
     });
@@ -131,7 +131,7 @@ void LiveRenderer::run() {
     std::shared_ptr<const SceneEdit> edit;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return must_end() || desk_.why().is_waiting(); });
+      changed_.wait(lock, [this] { return must_end() || state_.why().is_waiting(); });
       if (stopped_) return;
       if (!waiting_) {
         lock.unlock();
@@ -142,7 +142,7 @@ void LiveRenderer::run() {
       waiting_ = false;
     }
     const auto fail = [this](const std::string& message) {
-      desk_.update([&](ViewStatus& status) {
+      state_.update([&](ViewStatus& status) {
         status.stage.clear();
         if (!waiting_) status.render_error = message;
       });
@@ -162,7 +162,7 @@ void LiveRenderer::run() {
 }
 
 void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
-  desk_.update([&](ViewStatus& status) {
+  state_.update([&](ViewStatus& status) {
     status.mean_samples = status.first_pixels_s = status.render_s = 0;
     status.strands_regrown = 0;
     status.wanted_samples = edit->scene.render.samples;
@@ -190,13 +190,13 @@ void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
     } catch (const Error& error) {
       // Chunks kept from the last frame may occupy the memory that this frame needs.
       if (error.kind() != ErrorKind::kMemory) throw;
-      desk_.discard_frame();
+      state_.discard_frame();
       forget();
       load(*edit, Redo::kAssets, job);
     }
   }
   loaded_->edit = edit;
-  desk_.discard_frame();  // not earlier: after a mistake in an asset, the last picture stays whole
+  state_.discard_frame();  // not earlier: after a mistake in an asset, the last picture stays whole
   render_loaded(*edit, job);
 }
 
@@ -272,13 +272,13 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
   picture.height = result.film.height();
   picture.samples = result.samples;
   picture.layers = film_layers(
-      result.film, [this](const std::string& layer) { return desk_.is_wanted(layer); }, &names);
+      result.film, [this](const std::string& layer) { return state_.is_wanted(layer); }, &names);
   FrameHeader header = finished_header(*loaded_->world, result, seconds);
   auto frame = std::make_unique<const FinishedFrame>(
       FinishedFrame{std::move(result), std::move(header), loaded_->world->scene.camera});
-  desk_.publish(std::move(picture), std::move(frame));
+  state_.publish(std::move(picture), std::move(frame));
   const int64_t regrown = strands_regrown();
-  desk_.update([&](ViewStatus& status) {
+  state_.update([&](ViewStatus& status) {
     if (status.first_pixels_s == 0) status.first_pixels_s = seconds;
     status.stage.clear();
     status.mean_samples = mean_samples;
@@ -291,7 +291,7 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
 }
 
 void LiveRenderer::answer_questions() {
-  desk_.why().answer([this](int x, int y) -> std::optional<CommandAnswer> {
+  state_.why().answer([this](int x, int y) -> std::optional<CommandAnswer> {
     if (!loaded_->edit || !loaded_->geometry) return no_picture_answer();
     const ExplainedFrame frame{loaded_->edit->scene, loaded_->assets, *loaded_->world, loaded_->geometry,
                                &loaded_->fur};

@@ -23,9 +23,9 @@ struct FrameOptions;
 /// edit ends the render of the edit before it. Thread safety: all members may be called from any thread.
 class LiveRenderer {
  public:
-  /// `threads`: as in Workers. The desk must outlive the renderer.
-  LiveRenderer(ViewState& desk, int threads);
-  /// Ends the render and frees the finished frame on the desk.
+  /// `threads`: as in Workers. The state must outlive the renderer.
+  LiveRenderer(ViewState& state, int threads);
+  /// Ends the render and frees the finished frame on the state.
   ~LiveRenderer();
   LiveRenderer(const LiveRenderer&) = delete;
   LiveRenderer& operator=(const LiveRenderer&) = delete;
@@ -53,7 +53,7 @@ class LiveRenderer {
   int64_t strands_regrown() const;
   bool must_end() const { return stopped_ || waiting_; }
 
-  ViewState& desk_;
+  ViewState& state_;
   MemoryLedger ledger_;
   Workers workers_;
   std::atomic<bool> waiting_{false};  // next_ is not null

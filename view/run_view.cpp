@@ -12,12 +12,12 @@ namespace pelage {
 
 void run_live_view(const ViewOptions& options, const std::function<void(const std::string&)>& ready,
                    const std::function<bool()>& stopped) {
-  ViewState desk;
+  ViewState state;
   const bool is_local = options.address == ViewOptions{}.address;
-  const SceneCommands commands(options.scene, options.overrides, desk, is_local);
-  const ViewServer server(desk, commands, options.address, options.port);
-  LiveRenderer renderer(desk, options.threads);
-  const SceneFollower follower(options.scene, options.overrides, renderer, desk);
+  const SceneCommands commands(options.scene, options.overrides, state, is_local);
+  const ViewServer server(state, commands, options.address, options.port);
+  LiveRenderer renderer(state, options.threads);
+  const SceneFollower follower(options.scene, options.overrides, renderer, state);
   ready(server.url());
   while (!stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }

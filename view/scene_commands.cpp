@@ -126,7 +126,7 @@ constexpr double kMaxPixel = 65536;  // as image.width
 struct Context {
   const std::filesystem::path& scene;
   const std::vector<Override>& overrides;
-  ViewState& desk;
+  ViewState& state;
   bool may_write;
 };
 
@@ -161,15 +161,15 @@ json run_camera(const Context& context, const std::string& body) {
   const std::array<std::string, 4> actions{"move", "reset", "text", "write"};
   const json request = read_object(body, keys);
   const std::string action = read_choice(request, "action", actions);
-  ViewControl& control = context.desk.control();
+  ViewControl& control = context.state.control();
   if (action == "move") {
-    const CameraMove move = read_move(request, context.desk.status().camera.up);
-    context.desk.update([](ViewStatus& status) { status.camera_note.clear(); });
+    const CameraMove move = read_move(request, context.state.status().camera.up);
+    context.state.update([](ViewStatus& status) { status.camera_note.clear(); });
     control.set_camera(move);
     return json::object();
   }
   if (action == "reset") {
-    context.desk.update([](ViewStatus& status) { status.camera_note.clear(); });
+    context.state.update([](ViewStatus& status) { status.camera_note.clear(); });
     control.set_camera({});
     return json::object();
   }
@@ -211,7 +211,7 @@ json run_lights(const Context& context, const std::string& body) {
   for (const auto& [light, value] : lights->items()) mixes.push_back(read_mix(light, value));
   const auto edit = request.find("edit");
   const int64_t shown = edit != request.end() && edit->is_number_integer() ? edit->get<int64_t>() : -1;
-  const ViewStatus status = context.desk.status();
+  const ViewStatus status = context.state.status();
   const SceneDescription file = load_scene(context.scene, context.overrides);
   const auto changed = [&](const LightMix& mix) {
     const std::string part = "lights." + mix.light;
@@ -230,7 +230,7 @@ json run_region(const Context& context, const std::string& body) {
   const json request = read_object(body, keys);
   const json region = request.value("region", json());
   if (region.is_null()) {
-    context.desk.control().set_region({});
+    context.state.control().set_region({});
     return json::object();
   }
   const std::vector<double> v = read_numbers(region, "region", 4, 0, kMaxPixel);
@@ -238,7 +238,7 @@ json run_region(const Context& context, const std::string& body) {
                      static_cast<int>(v[3])};
   if (box.x0 >= box.x1 || box.y0 >= box.y1)
     throw Error(ErrorKind::kArguments, "region: expected [X0, Y0, X1, Y1] with X0 < X1 and Y0 < Y1");
-  context.desk.control().set_region(box);
+  context.state.control().set_region(box);
   return json::object();
 }
 
@@ -270,7 +270,7 @@ CommandAnswer SceneCommands::run(std::string_view name, const std::string& body)
   const Command* command = find_command(name);
   if (!command) return refuse(404, "there is no such command");
   try {
-    return {200, text_of(command->run({scene_, overrides_, desk_, may_write_}, body))};
+    return {200, text_of(command->run({scene_, overrides_, state_, may_write_}, body))};
   } catch (const Error& error) {
     return refuse(error.kind() == ErrorKind::kArguments ? 400 : 409, error.what());
   } catch (const std::exception& error) {

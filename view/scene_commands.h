@@ -17,9 +17,9 @@ namespace pelage {
 class SceneCommands {
  public:
   /// `may_write`: whether clients may change the scene file.
-  SceneCommands(std::filesystem::path scene, std::vector<Override> overrides, ViewState& desk,
+  SceneCommands(std::filesystem::path scene, std::vector<Override> overrides, ViewState& state,
                 bool may_write = true)
-      : scene_(std::move(scene)), overrides_(std::move(overrides)), desk_(desk), may_write_(may_write) {}
+      : scene_(std::move(scene)), overrides_(std::move(overrides)), state_(state), may_write_(may_write) {}
 
   /// Returns whether there is a command of a name: "camera.json", "lights.json", "region.json".
   static bool exists(std::string_view name);
@@ -29,7 +29,7 @@ class SceneCommands {
  private:
   const std::filesystem::path scene_;
   const std::vector<Override> overrides_;
-  ViewState& desk_;
+  ViewState& state_;
   const bool may_write_;
 };
 

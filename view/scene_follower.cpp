@@ -33,8 +33,8 @@ ViewCamera camera_of(const SceneDescription& scene, bool moved) {
 }  // namespace
 
 SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> overrides,
-                             LiveRenderer& renderer, ViewState& desk)
-    : path_(std::move(scene)), overrides_(std::move(overrides)), renderer_(renderer), desk_(desk) {
+                             LiveRenderer& renderer, ViewState& state)
+    : path_(std::move(scene)), overrides_(std::move(overrides)), renderer_(renderer), state_(state) {
   files_ = {path_};
   last_ = read();
   files_ = followed_files(last_->scene);
@@ -42,11 +42,11 @@ SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> 
   watch_.watch(files_);
   renderer_.submit(last_);
   thread_ = std::thread([this] { run(); });
-  desk_.control().on_change([this] { watch_.wake(); });
+  state_.control().on_change([this] { watch_.wake(); });
 }
 
 SceneFollower::~SceneFollower() {
-  desk_.control().on_change({});
+  state_.control().on_change({});
   stopped_ = true;
   watch_.wake();
   thread_.join();
@@ -55,13 +55,13 @@ SceneFollower::~SceneFollower() {
 SceneDescription SceneFollower::load_with_camera() {
   SceneDescription scene = load_scene(path_, overrides_);
   SceneParts own = camera_parts(scene.parts);
-  camera_ = desk_.control().camera();
+  camera_ = state_.control().camera();
   const bool changed = own != own_camera_;
-  const bool written = changed && desk_.control().take_written();
+  const bool written = changed && state_.control().take_written();
   if (camera_ && changed && !written) {
     camera_ = std::nullopt;
-    desk_.control().set_camera({});
-    desk_.update([](ViewStatus& status) {
+    state_.control().set_camera({});
+    state_.update([](ViewStatus& status) {
       status.camera_note = "the camera of the scene file has changed, and is shown again";
     });
   }
@@ -79,7 +79,7 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   const FileStamps before = stamps_of(files_);
   SceneDescription scene = load_with_camera();
   FileStamps stamps = stamps_of(followed_files(scene));
-  desk_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
+  state_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
   for (auto& [file, stamp] : stamps) {
     if (const auto known = before.find(file); known != before.end()) stamp = known->second;
   }
@@ -92,8 +92,8 @@ void SceneFollower::run() {
     if (stopped_) return;
     if (changed) wait_for_quiet();
     // A file that an include names and that does not exist yet is not among files_.
-    const bool broken = !desk_.status().scene_error.empty();
-    const bool moved = desk_.control().camera() != camera_;
+    const bool broken = !state_.status().scene_error.empty();
+    const bool moved = state_.control().camera() != camera_;
     if (changed || broken || moved || stamps_of(files_) != stamps_) read_again();
   }
 }
@@ -110,15 +110,15 @@ void SceneFollower::read_again() {
     files_ = followed_files(edit->scene);
     stamps_ = edit->files;
     watch_.watch(files_);
-    const bool failed = !desk_.status().render_error.empty();
+    const bool failed = !state_.status().render_error.empty();
     const bool same = edit->redo_after(*last_) == Redo::kNothing && !failed;
-    desk_.update([](ViewStatus& status) { status.scene_error.clear(); });
+    state_.update([](ViewStatus& status) { status.scene_error.clear(); });
     if (same) return;
     last_ = edit;
     renderer_.submit(std::move(edit));
   } catch (const std::exception& error) {  // an Error, or a failure of the system
     stamps_ = stamps_of(files_);
-    desk_.update([&](ViewStatus& status) { status.scene_error = error.what(); });
+    state_.update([&](ViewStatus& status) { status.scene_error = error.what(); });
   }
 }
 

@@ -15,13 +15,13 @@ namespace pelage {
 
 /// Follows the files of a scene on a thread of its own: reads the scene again after each change, and submits
 /// the edit to a renderer unless the change is only one of comments or formatting. A scene with mistakes is
-/// not submitted; its problems are shown on the desk until the next change. If a client has moved the camera
+/// not submitted; its problems are shown on the state until the next change. If a client has moved the camera
 /// (ViewControl), the edits have that camera, until the scene's own camera changes.
 class SceneFollower {
  public:
   /// Reads the scene and submits it. Throws the errors of load_scene().
   SceneFollower(std::filesystem::path scene, std::vector<Override> overrides, LiveRenderer& renderer,
-                ViewState& desk);
+                ViewState& state);
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -36,7 +36,7 @@ class SceneFollower {
   const std::filesystem::path path_;
   const std::vector<Override> overrides_;
   LiveRenderer& renderer_;
-  ViewState& desk_;
+  ViewState& state_;
   FileWatch watch_;
   std::vector<std::filesystem::path> files_;
   FileStamps stamps_;                      // of files_, when they were read last

@@ -7,13 +7,13 @@
 namespace pelage {
 namespace {
 
-constexpr double kStep = 0.005;  // the desk shows progress in steps of this fraction
+constexpr double kStep = 0.005;  // the state shows progress in steps of this fraction
 constexpr size_t kMaxWarnings = 20;
 
 }  // namespace
 
-StageProgress::StageProgress(ViewState& desk, const MemoryLedger& ledger, std::function<bool()> must_end)
-    : desk_(desk), ledger_(ledger), must_end_(std::move(must_end)) {}
+StageProgress::StageProgress(ViewState& state, const MemoryLedger& ledger, std::function<bool()> must_end)
+    : state_(state), ledger_(ledger), must_end_(std::move(must_end)) {}
 
 double StageProgress::Stage::fraction() const { return total > 0 ? std::min(done / total, 1.0) : 0; }
 
@@ -48,7 +48,7 @@ void StageProgress::end() {
 }
 
 void StageProgress::warn(std::string_view line) {
-  desk_.update([&](ViewStatus& status) {
+  state_.update([&](ViewStatus& status) {
     status.warnings.emplace_back(line);
     if (status.warnings.size() > kMaxWarnings) status.warnings.erase(status.warnings.begin());
   });
@@ -57,7 +57,7 @@ void StageProgress::warn(std::string_view line) {
 void StageProgress::show() {
   const Stage stage = stages_.empty() ? Stage{} : stages_.back();
   shown_ = stage.fraction();
-  desk_.update([&](ViewStatus& status) {
+  state_.update([&](ViewStatus& status) {
     status.stage = stage.name;
     status.progress = shown_;
     status.memory_bytes = ledger_.budgeted();

@@ -17,9 +17,9 @@ namespace pelage {
 /// shows the last few warnings. Thread safety: all members may be called from any thread.
 class StageProgress final : public Progress {
  public:
-  /// `must_end`: whether the work is cancelled; called from any thread. The desk and the ledger must outlive
+  /// `must_end`: whether the work is cancelled; called from any thread. The state and the ledger must outlive
   /// this object.
-  StageProgress(ViewState& desk, const MemoryLedger& ledger, std::function<bool()> must_end);
+  StageProgress(ViewState& state, const MemoryLedger& ledger, std::function<bool()> must_end);
 
   /// Forgets all stages, for work that begins anew.
   void reset();
@@ -39,12 +39,12 @@ class StageProgress final : public Progress {
   };
   void show();
 
-  ViewState& desk_;
+  ViewState& state_;
   const MemoryLedger& ledger_;
   const std::function<bool()> must_end_;
   std::mutex mutex_;
   std::vector<Stage> stages_;  // each is a part of the one before
-  double shown_ = 0;           // fraction of the last stage on the desk
+  double shown_ = 0;           // fraction of the last stage on the state
 };
 
 }  // namespace pelage

@@ -121,7 +121,7 @@ void end_connections(int port) {
 
 struct ViewServer::State {
   State(ViewState& view_state, const SceneCommands& scene_commands, RequestRules request_rules)
-      : desk(view_state), commands(scene_commands), rules(std::move(request_rules)) {}
+      : state(view_state), commands(scene_commands), rules(std::move(request_rules)) {}
 
   /// Answers a request whose body has not been read. Returns false for a command, whose body is to be read.
   bool answer(const httplib::Request& request, httplib::Response& response);
@@ -136,7 +136,7 @@ struct ViewServer::State {
   void send_exr(httplib::Response& response);
   void send_why(const httplib::Request& request, httplib::Response& response);
 
-  ViewState& desk;
+  ViewState& state;
   const SceneCommands& commands;
   RequestRules rules;
   int port = 0;
@@ -190,8 +190,8 @@ void ViewServer::State::run_command(const httplib::Request& request, httplib::Re
 void ViewServer::State::answer_page(const httplib::Request& request, httplib::Response& response) {
   const std::string& path = request.path;
   if (path == "/state.json") {
-    const std::shared_ptr<const Picture> picture = desk.picture();
-    return send(state_json(desk.status(), picture.get(), desk.control().region()), "application/json",
+    const std::shared_ptr<const Picture> picture = state.picture();
+    return send(state_json(state.status(), picture.get(), state.control().region()), "application/json",
                 response);
   }
   if (path == "/layer.bin") {
@@ -220,10 +220,10 @@ void ViewServer::State::send(std::string bytes, const std::string& type, httplib
 }
 
 void ViewServer::State::send_layers(const std::vector<std::string>& names, httplib::Response& response) {
-  const std::shared_ptr<const Picture> picture = desk.with_layers(names);
+  const std::shared_ptr<const Picture> picture = state.with_layers(names);
   const auto has = [&](const std::string& name) { return picture && picture->layers.contains(name); };
   if (names.empty() || !std::all_of(names.begin(), names.end(), has)) {
-    const std::vector<std::string> known = desk.status().layers;
+    const std::vector<std::string> known = state.status().layers;
     const auto will_have = [&](const std::string& name) {
       return std::find(known.begin(), known.end(), name) != known.end();
     };
@@ -238,8 +238,8 @@ void ViewServer::State::send_layers(const std::vector<std::string>& names, httpl
 
 void ViewServer::State::send_exr(httplib::Response& response) {
   std::string bytes;
-  if (!desk.with_frame([&](const FinishedFrame& frame) { bytes = finished_exr(frame); })) {
-    const std::shared_ptr<const Picture> picture = desk.picture();
+  if (!state.with_frame([&](const FinishedFrame& frame) { bytes = finished_exr(frame); })) {
+    const std::shared_ptr<const Picture> picture = state.picture();
     if (!picture) return refuse(404, "there is no picture yet", response);
     bytes = partial_exr(*picture);
   }
@@ -250,13 +250,14 @@ void ViewServer::State::send_why(const httplib::Request& request, httplib::Respo
   const std::optional<int> x = read_pixel(request.get_param_value("x"));
   const std::optional<int> y = read_pixel(request.get_param_value("y"));
   CommandAnswer answer{400, R"({"error": "expected the parameters x and y, a pixel of the picture"})"};
-  if (x && y) answer = desk.why().ask(*x, *y, [this] { return closing.load(); });
+  if (x && y) answer = state.why().ask(*x, *y, [this] { return closing.load(); });
   response.status = answer.status;
   send(std::move(answer.json), "application/json", response);
 }
 
-ViewServer::ViewServer(ViewState& desk, const SceneCommands& commands, const std::string& address, int port) {
-  auto server = std::make_unique<State>(desk, commands, RequestRules(address, port, ""));
+ViewServer::ViewServer(ViewState& state, const SceneCommands& commands, const std::string& address,
+                       int port) {
+  auto server = std::make_unique<State>(state, commands, RequestRules(address, port, ""));
   httplib::Server& http = server->server;
   // Without SO_REUSEPORT, which the library sets by itself: two servers would share the port.
   http.set_socket_options([](socket_t socket) {

@@ -15,9 +15,9 @@ namespace pelage {
 /// commands on.
 class ViewServer {
  public:
-  /// Begins to answer at an address. `port`: 0 chooses a free one. The desk and the
+  /// Begins to answer at an address. `port`: 0 chooses a free one. The state and the
   /// commands must outlive the server. Throws Error (kFailed) when the address or the port cannot be used.
-  ViewServer(ViewState& desk, const SceneCommands& commands, const std::string& address, int port);
+  ViewServer(ViewState& state, const SceneCommands& commands, const std::string& address, int port);
   /// Ends all requests within a second, also those of clients that do not read or write.
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;

@@ -28,7 +28,7 @@ ChunkWhy explain_chunk(const FrameGeometry& geometry, uint32_t chunk) {
     return 0;
   });
   why.box = chunks.boxes().whole(chunk);
-  why.segment_cell_bounds = chunks.boxes().fine(chunk).count();
+  why.segment_cell_bounds = chunks.boxes().cell_bounds(chunk).count();
   why.growths = geometry.growths(chunk);
   return why;
 }

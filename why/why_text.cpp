@@ -101,7 +101,7 @@ std::string chunk_text(const ChunkWhy& chunk) {
   const std::string grew = chunk.growths == 0   ? "kept from an earlier picture"
                            : chunk.growths == 1 ? "grown once"
                                                 : fmt::format("grown {} times", chunk.growths);
-  return fmt::format("chunk {}: {}, {:.1f} KiB, {} fine boxes, {}\n  box {} to {}\n", chunk.index,
+  return fmt::format("chunk {}: {}, {:.1f} KiB, {} cell bounds, {}\n  box {} to {}\n", chunk.index,
                      counted(static_cast<int64_t>(chunk.strands), "strand"),
                      static_cast<double>(chunk.bytes) / 1024, chunk.segment_cell_bounds, grew,
                      text_of(chunk.box.min), text_of(chunk.box.max));

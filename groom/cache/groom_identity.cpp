@@ -46,6 +46,7 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
       parameter.key = std::string(op->traits().name) + "." + parameter.key;
       strands.push_back(std::move(parameter));
     }
+    strands.push_back({std::string(op->traits().name) + ".version", std::to_string(op->traits().version)});
   }
   add("strands", growth_version::kStrands, strands);
   add("points", growth_version::kPoints, {{"points", std::to_string(params.points)}});

@@ -91,7 +91,7 @@ void Clump::prepare(const PrepareContext& context) {
       for (const auto& op : context.preceding) {
         if (op->traits().reads_rest_only) op->apply(batch);
       }
-      draw(batch, levels_.size());
+      pull(batch, levels_.size());
     };
     auto centres = std::make_shared<const ClumpCentres>(context, spacing, level_seed, grow);
     levels_.push_back({spacing, amount.with_textures(context.textures), std::move(centres)});
@@ -100,9 +100,9 @@ void Clump::prepare(const PrepareContext& context) {
   for (const ClumpLevelParams& level : params_.levels) add(level.spacing, level.amount);
 }
 
-void Clump::apply(StrandBatch& batch) const { draw(batch, levels_.size()); }
+void Clump::apply(StrandBatch& batch) const { pull(batch, levels_.size()); }
 
-void Clump::draw(StrandBatch& batch, size_t level_count) const {
+void Clump::pull(StrandBatch& batch, size_t level_count) const {
   if (level_count == 0) return;
   const size_t points = batch.points.size();
   std::vector<StrandRow> arcs(points);  // of the incoming strands
@@ -116,7 +116,7 @@ void Clump::draw(StrandBatch& batch, size_t level_count) const {
   PullTotals totals;
   totals.stays.fill(1.0f);
   totals.roots.fill(0.0f);
-  for (size_t i = 0; i < level_count; ++i) draw_level(levels_[i], hash64(seed_, i), arcs, batch, totals);
+  for (size_t i = 0; i < level_count; ++i) pull_level(levels_[i], hash64(seed_, i), arcs, batch, totals);
 
   // Strands that became longer are scaled back about their roots.
   StrandRow length;
@@ -133,7 +133,7 @@ void Clump::draw(StrandBatch& batch, size_t level_count) const {
   }
 }
 
-void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
+void Clump::pull_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
                        StrandBatch& batch, PullTotals& totals) const {
   const ClumpCentres& centres = *level.centres;
   std::array<RootGrid::Neighbour, kBlockStrands> centre;

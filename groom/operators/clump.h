@@ -68,8 +68,8 @@ class Clump final : public OperatorOf<ClumpParams> {
     float amount = 0;  ///< 1 - product over the levels of (1 - the level's max amount)
     float roots = 0;   ///< sum over the levels of the max distance from a root to its centre's root
   };
-  void draw(StrandBatch& batch, size_t level_count) const;
-  void draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
+  void pull(StrandBatch& batch, size_t level_count) const;
+  void pull_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
                   StrandBatch& batch, PullTotals& totals) const;
   float strongest(const Level& level) const;
   Pull pull() const;

@@ -52,7 +52,7 @@ enum class RestUse { kNone, kPositions, kFrames };
 /// What an operator is and what it needs, as the growth of a coat sees it. Depends on its parameters only.
 struct OperatorTraits {
   std::string_view name = {};  ///< in the scene file: "clump"
-  /// Raised whenever apply() or prepare() gives other results than before (see groom_identity.h).
+  /// Raised whenever apply(), prepare() or coverage() gives other results than before (see groom_identity.h).
   int version = 1;
   /// Whether the operator uses rest state only. If so, its result is valid in every pose and may be frozen.
   /// If not, the operator receives posed strands.

@@ -40,7 +40,7 @@ bool is_possible(const Box3f& box) {
   return true;
 }
 
-/// Stored data of the fine boxes of one chunk, except their sides.
+/// Stored data of the cell bounds of one chunk, except their sides.
 struct FineHeader {
   float corner[3], motion[3], step[3];
   uint32_t count;
@@ -71,9 +71,9 @@ std::vector<ChunkBounds> unpack(const StoredFile& file, size_t count, int keys) 
     const FineHeader& h = headers[chunk];
     const size_t finest = SegmentCellBounds::groups_of(h.count);
     if (finest > rest.size()) return {};
-    bounds[chunk].fine =
+    bounds[chunk].cell_bounds =
         SegmentCellBounds({vector(h.corner), vector(h.motion), vector(h.step)}, rest.first(finest), h.count);
-    if (!bounds[chunk].fine.is_possible()) return {};
+    if (!bounds[chunk].cell_bounds.is_possible()) return {};
     rest = rest.subspan(finest);
   }
   if (!rest.empty()) return {};
@@ -106,14 +106,15 @@ void write_bounds(const BoundsRecord& record, BoundSpan span, int keys,
       values.insert(values.end(), {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
     }
     first.push_back(static_cast<uint32_t>(values.size() / 6));
-    const SegmentCellBounds& fine = chunk->fine;
+    const SegmentCellBounds& cell_bounds = chunk->cell_bounds;
     FineHeader header;
-    std::copy_n(&fine.grid().corner[0], 3, header.corner);
-    std::copy_n(&fine.grid().motion[0], 3, header.motion);
-    std::copy_n(&fine.grid().step[0], 3, header.step);
-    header.count = static_cast<uint32_t>(fine.count());
+    std::copy_n(&cell_bounds.grid().corner[0], 3, header.corner);
+    std::copy_n(&cell_bounds.grid().motion[0], 3, header.motion);
+    std::copy_n(&cell_bounds.grid().step[0], 3, header.step);
+    header.count = static_cast<uint32_t>(cell_bounds.count());
     headers.push_back(header);
-    if (fine.count() > 0) groups.insert(groups.end(), fine.level(0).begin(), fine.level(0).end());
+    if (cell_bounds.count() > 0)
+      groups.insert(groups.end(), cell_bounds.level(0).begin(), cell_bounds.level(0).end());
   }
   ContentStore::Writer writer = record.store->writer(kKind, entry_key(record, span, keys));
   writer.add(std::span<const uint32_t>(first));

@@ -14,8 +14,9 @@ namespace pelage {
 // content store beside the groom's cache. It has four sections:
 //   1. the index of each chunk's first box, and the total number of boxes: count + 1 numbers of 32 bits
 //   2. the boxes: 6 floats each (min, max)
-//   3. for each chunk, the grid of its fine boxes (9 floats: corner, motion, step) and their number (32 bits)
-//   4. the groups of fine boxes of all chunks, only of the finest level (SegmentCellBounds::Group)
+//   3. for each chunk, the grid of its cell bounds (9 floats: corner, motion, step) and their number (32
+//   bits)
+//   4. the groups of cell bounds of all chunks, only of the finest level (SegmentCellBounds::Group)
 
 /// Raised whenever the same strands get different boxes, or the layout of the file changes.
 /// tests/procedurals/stored_versions_test.cpp fails when boxes change and the version does not.

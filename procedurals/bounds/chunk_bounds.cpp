@@ -19,7 +19,7 @@ ChunkBounds ChunkBounds::in_one_part() && {
   one.keys = keys;
   one.boxes.resize(boxes.empty() ? 0 : static_cast<size_t>(keys));
   for (size_t i = 0; i < boxes.size(); ++i) one.boxes[i % static_cast<size_t>(keys)].extendBy(boxes[i]);
-  one.fine = std::move(fine);
+  one.cell_bounds = std::move(cell_bounds);
   return one;
 }
 

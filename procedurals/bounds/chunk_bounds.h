@@ -26,19 +26,20 @@ struct EnumNames<BoundingStrategy> {
 /// Boxes of one chunk. A chunk has one or more parts; a part is a group of neighbouring segments, or the
 /// whole chunk. The box of a part at key k is boxes[part * keys + k]. With one key, the box contains the part
 /// during the whole time span. With two keys, the boxes are at shutter open and close; the box interpolated
-/// linearly to the time of a ray contains the part at this time. Measured chunks also have fine boxes. A ray
-/// that misses all fine boxes does not hit the chunk, so the chunk need not be grown for this ray.
+/// linearly to the time of a ray contains the part at this time. Measured chunks also have cell bounds. A ray
+/// that misses all cell bounds does not hit the chunk, so the chunk need not be grown for this ray.
 struct ChunkBounds {
   int keys = 1;
   std::vector<Box3f> boxes;
-  SegmentCellBounds fine = {};  ///< together contain the chunk at each time of the shutter; may be empty
+  SegmentCellBounds cell_bounds =
+      {};  ///< together contain the chunk at each time of the shutter; may be empty
 
   size_t part_count() const { return boxes.size() / static_cast<size_t>(keys); }
   /// Returns the box of a part at a key.
   const Box3f& box(size_t part, int key) const {
     return boxes[part * static_cast<size_t>(keys) + static_cast<size_t>(key)];
   }
-  /// Returns bounds with one part that contains all parts, and with the same fine boxes.
+  /// Returns bounds with one part that contains all parts, and with the same cell bounds.
   ChunkBounds in_one_part() &&;
   /// Returns a box that contains all parts at all times; an empty box for an empty chunk.
   Box3f whole() const {

@@ -139,7 +139,7 @@ ChunkBounds SegmentParts::exact_bounds(int keys) const {
       for (size_t i = begin_of(c); i < begin_of(c + 1); ++i) box.extendBy(hull(key, i));
     }
   }
-  bounds.fine = SegmentCellBounds(cells, boxes_per_cell);
+  bounds.cell_bounds = SegmentCellBounds(cells, boxes_per_cell);
   return bounds;
 }
 

@@ -19,12 +19,12 @@ struct SegmentPlace {
 };
 
 /// Sizes of the parts and cells into which a batch of strands is divided. The boxes of parts are the leaves
-/// of the tree over all chunks. The boxes of cells are the fine boxes of a chunk. Both are known before the
+/// of the tree over all chunks. The boxes of cells are the cell bounds of a chunk. Both are known before the
 /// chunk is grown for use.
 ///
 /// Random rays through leaves of 5,600 segments gave these figures: 30 % of the rays hit hair, and 86 % hit
 /// the box of a part. With cells of 64, 32 or 16 segments, 72, 69 or 67 % of the rays hit the box of a cell,
-/// and the fine boxes take 0.7, 1.4 or 2.8 KB per leaf.
+/// and the cell bounds take 0.7, 1.4 or 2.8 KB per leaf.
 struct SegmentDivision {
   size_t cell_segments = 32;  ///< max number of segments per cell
   size_t part_cells = 16;     ///< number of cells per part, a power of 2
@@ -52,7 +52,7 @@ class SegmentParts {
   std::span<const SegmentPlace> part(size_t p) const {
     return segments(p * division_.part_cells, std::min((p + 1) * division_.part_cells, cells_));
   }
-  /// Returns the exact box of every part, and fine boxes that contain the cells. With keys = 1, the box of a
+  /// Returns the exact box of every part, and cell bounds that contain the cells. With keys = 1, the box of a
   /// part contains the part at all motion keys. With keys = 2, there is a box at the first and a box at the
   /// last motion key. Both are enlarged if the box interpolated between them would not contain the part at a
   /// motion key in between.

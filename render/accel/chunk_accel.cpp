@@ -14,7 +14,7 @@ namespace {
 // Before a visit, which is cheap, testing learned boxes is worthwhile only if they are this many times finer
 // than the given ones. Before a chunk is grown, it is always worthwhile.
 constexpr size_t kFiner = 8;
-constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine ones
+constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without cell bounds
 
 }  // namespace
 
@@ -22,7 +22,7 @@ constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine 
 struct alignas(64) ChunkAccel::Scratch {
   struct Waiting {
     float entry;
-    uint32_t boxes;  // number of fine ones that the ray intersects
+    uint32_t boxes;  // number of cell bounds that the ray intersects
     uint32_t chunk;
   };
 
@@ -82,7 +82,7 @@ class ChunkAccel::Visits {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   /// Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
-  /// that looks for any blocker, `hit_geometry` becomes the number of fine boxes that it intersects.
+  /// that looks for any blocker, `cells_hit` becomes the number of cell bounds that it intersects.
   float enter(uint32_t chunk, float entry, bool resident, uint32_t& cells_hit) {
     if (resident && boxes_.in_fur_tree(chunk)) return entry;
     const float until = far_();
@@ -91,9 +91,9 @@ class ChunkAccel::Visits {
       counts_.box_tests += static_cast<int64_t>(learned->count());
       entry = learned->enter(walk_.slabs(), until);
     }
-    if (resident || !boxes_.has_fine(chunk) || entry == kInfinity) return entry;
-    const SegmentCellHits hits = intersect_segment_cell_bounds(boxes_.fine(chunk), walk_.slabs(), until, any_,
-                                                               counts_.box_tests, boxes_.margin(chunk));
+    if (resident || !boxes_.has_cell_bounds(chunk) || entry == kInfinity) return entry;
+    const SegmentCellHits hits = intersect_segment_cell_bounds(
+        boxes_.cell_bounds(chunk), walk_.slabs(), until, any_, counts_.box_tests, boxes_.margin(chunk));
     cells_hit = hits.boxes;
     return hits.entry;
   }
@@ -113,8 +113,8 @@ class ChunkAccel::Visits {
     while (goes_on && walk_.next(far_(), chunk, entry)) {
       if (!scratch_.first_time(chunk)) {
         // Boxes are not strictly ordered: one of a pending chunk may be entered before those seen so far.
-        // Fine boxes were all tested together.
-        if (boxes_.has_fine(chunk)) continue;
+        // Cell bounds were all tested together.
+        if (boxes_.has_cell_bounds(chunk)) continue;
         for (Waiting& waiting : scratch_.waiting) {
           if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
         }

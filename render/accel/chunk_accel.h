@@ -17,7 +17,7 @@ namespace pelage {
 /// hit, ResidentChunks grows and evicts chunks, and a ChunkGeometry is the content of one resident chunk.
 ///
 /// A ray visits each chunk at most once: first the resident chunks, then the others that it can still hit. A
-/// chunk that is not resident and has fine boxes is grown only for rays that intersect one of these boxes in
+/// chunk that is not resident and has cell bounds is grown only for rays that intersect one of these boxes in
 /// front of the nearest hit so far. The geometry that is hit is copied while the chunk is pinned. Results
 /// depend neither on the memory limit, nor on which chunks are resident, nor on the boxes, provided that the
 /// boxes contain their chunks.

@@ -38,10 +38,10 @@ ChunkBoxes::ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower
       widen(bounds, known.margin);
       bounds = std::move(bounds).in_one_part();
     }
-    known.fine = std::move(bounds.fine);
+    known.cell_bounds = std::move(bounds.cell_bounds);
     // For a moving chunk, boxes over a longer time than the shutter are less tight than learned ones.
-    known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds.keys == 1);
-    bytes_bound_ += known.fine.bytes();
+    known.learns = known.cell_bounds.count() == 0 || (counts.motion_keys > 1 && bounds.keys == 1);
+    bytes_bound_ += known.cell_bounds.bytes();
     if (known.learns)
       bytes_bound_ += PartBoxes::bytes_bound(learned_parts(counts.segments + counts.triangles) + 3,
                                              counts.motion_keys > 1);
@@ -61,10 +61,10 @@ void ChunkBoxes::build_tree(const Workers& workers) {
   given_ = {};
 }
 
-/// Returns the measured box of a chunk without fine boxes, or else the known one.
+/// Returns the measured box of a chunk without cell bounds, or else the known one.
 Box3f ChunkBoxes::tight_box(uint32_t chunk) const {
   const PartBoxes* const measured = learned(chunk);
-  if (!measured || !in_fur_tree(chunk) || has_fine(chunk)) return whole_[chunk];
+  if (!measured || !in_fur_tree(chunk) || has_cell_bounds(chunk)) return whole_[chunk];
   Box3f box = measured->bounds().whole();
   if (box.isEmpty()) return box;
   float reach = 0;
@@ -106,8 +106,8 @@ void ChunkBoxes::learn(uint32_t chunk, std::unique_ptr<const PartBoxes> measured
 ChunkBounds ChunkBoxes::take_given(uint32_t chunk) {
   KnownBounds& known = known_[chunk];
   if (known.given.isEmpty()) return {};
-  const bool measured = learned(chunk) && !has_fine(chunk);
-  return {1, {measured ? tight_box(chunk) : known.given}, std::move(known.fine)};
+  const bool measured = learned(chunk) && !has_cell_bounds(chunk);
+  return {1, {measured ? tight_box(chunk) : known.given}, std::move(known.cell_bounds)};
 }
 
 std::unique_ptr<const PartBoxes> ChunkBoxes::take_learned(uint32_t chunk) {

@@ -45,16 +45,15 @@ class ChunkBoxes {
   /// Returns the tree, or null before it is built.
   const ChunkTree* tree() const { return tree_.get(); }
   /// Box that contains the whole chunk at all times of the shutter, in world space; empty for an empty chunk.
-  /// The tree must have been built. (With `bounds: user`, the user chose the box, and it may be too large or
-  /// too small.)
+  /// The tree must have been built.
   const Box3f& whole(uint32_t chunk) const { return whole_[chunk]; }
   /// Number of the chunk's boxes in the tree.
   size_t parts_in_tree(uint32_t chunk) const { return tree_parts_[chunk]; }
 
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
-  bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
-  const SegmentCellBounds& fine(uint32_t chunk) const { return known_[chunk].fine; }
-  /// Distance by which a query must enlarge the chunk's fine boxes on every side.
+  bool has_cell_bounds(uint32_t chunk) const { return cell_bounds(chunk).count() > 0; }
+  const SegmentCellBounds& cell_bounds(uint32_t chunk) const { return known_[chunk].cell_bounds; }
+  /// Distance by which a query must enlarge the chunk's cell bounds on every side.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
   /// Whether boxes measured on the chunk may be tighter than the given boxes.
@@ -70,7 +69,7 @@ class ChunkBoxes {
   static constexpr size_t kPrimitivesPerPart = 1024, kMaxParts = 64;
 
   /// Removes the boxes of a chunk of fur, for another frame: the given box, or the measured one if there are
-  /// no fine boxes. Returns no boxes if they are not known any more, because they were linear in time or in
+  /// no cell bounds. Returns no boxes if they are not known any more, because they were linear in time or in
   /// several parts. The chunk then has no known boxes: call only before this object is destroyed.
   ChunkBounds take_given(uint32_t chunk);
   /// Removes the measured boxes; null if there are none. Call only before this object is destroyed.
@@ -81,7 +80,7 @@ class ChunkBoxes {
 
  private:
   struct KnownBounds {
-    SegmentCellBounds fine;
+    SegmentCellBounds cell_bounds;
     Box3f given;  // before it was enlarged by the margin; only of chunks in fur trees with a constant box
     float margin = 0;
     bool learns = true;

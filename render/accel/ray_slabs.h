@@ -81,7 +81,7 @@ class RaySlabs {
   Four time_;
 };
 
-/// A ray prepared for the slab test of fine boxes. Their sides are whole numbers of steps from a corner,
+/// A ray prepared for the slab test of cell bounds. Their sides are whole numbers of steps from a corner,
 /// which may move (see SegmentCellBounds).
 class GridSlabs {
  public:
@@ -99,7 +99,7 @@ class GridSlabs {
     }
   }
 
-  /// Tests four fine boxes as RaySlabs::intersect() tests boxes. The error bound of RaySlabs also covers the
+  /// Tests four cell bounds as RaySlabs::intersect() tests boxes. The error bound of RaySlabs also covers the
   /// rounding of the corner, because the corner lies in the scene.
   auto intersect(const SegmentCellBounds::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);

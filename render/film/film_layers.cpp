@@ -11,16 +11,16 @@ const Schema<ImageParams>& ImageParams::schema() {
     s.key("height", &ImageParams::height, {.unit = "pixels", .help = "Height", .min = 1, .max = 65536});
     s.key("filter", &ImageParams::filter,
           {.help = "Pixel filter: `box` is one pixel wide, `blackman-harris` three"});
-    s.key(
-        "filter_samples", &ImageParams::filter_samples,
-        {.help = "`drawn`: sample positions are drawn from the filter (filter importance sampling); each "
-                 "sample counts for one pixel only, so pixels are independent of each other. `splatted`: "
-                 "samples are distributed uniformly, and each sample is added to every pixel whose filter "
-                 "covers it. With `blackman-harris` this halves the variance at the same number of samples, "
-                 "but the noise of neighbouring pixels is correlated. No samples are taken outside the "
-                 "picture, so the filters of the outermost pixels are cut off at its border. Not available "
-                 "with `adaptive`",
-         .default_text = "drawn; splatted with `integrator: gather`"});
+    s.key("filter_samples", &ImageParams::filter_samples,
+          {.help =
+               "`drawn`: sample positions are distributed like the filter (filter importance sampling); each "
+               "sample counts for one pixel only, so pixels are independent of each other. `splatted`: "
+               "samples are distributed uniformly, and each sample is added to every pixel whose filter "
+               "covers it. With `blackman-harris` this halves the variance at the same number of samples, "
+               "but the noise of neighbouring pixels is correlated. No samples are taken outside the "
+               "picture, so the filters of the outermost pixels are cut off at its border. Not available "
+               "with `adaptive`",
+           .default_text = "drawn; splatted with `integrator: gather`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key(

@@ -13,10 +13,12 @@ namespace pelage {
 /// Dimension of SampleStream for each use of random numbers in a sample. Dimensions do not depend on the
 /// course of the path. Each vertex of the path has several; those of the first vertex start at kFirstVertex.
 enum class SampleDimension : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
-/// The dimensions of a path's first vertex, from SampleDimension::kFirstVertex on.
-enum class VertexDimension : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4 };
-inline void seek(SampleStream& stream, VertexDimension dimension) {
-  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + static_cast<uint32_t>(dimension));
+/// Dimensions of a vertex of a path, from its first dimension on.
+enum class VertexDimension : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kCount = 5 };
+/// Sets the next random number of `stream` to a dimension of a vertex; the first vertex is 0.
+inline void seek(SampleStream& stream, VertexDimension dimension, uint32_t vertex = 0) {
+  stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) +
+              static_cast<uint32_t>(VertexDimension::kCount) * vertex + static_cast<uint32_t>(dimension));
 }
 
 struct CameraSample {

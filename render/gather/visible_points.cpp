@@ -25,8 +25,8 @@ VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shadin
       shading_(shading),
       camera_(camera),
       keys_(scene, samples),
-      drawn_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
-      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &drawn_) {}
+      far_lights_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
+      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &far_lights_) {}
 
 uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scratch,
                                         TileSamples& tile) const {

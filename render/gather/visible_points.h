@@ -67,7 +67,7 @@ class VisiblePoints {
   const FrameShading& shading_;
   const CameraSamples& camera_;
   GatherPointKeys keys_;
-  FarLightSamples drawn_;
+  FarLightSamples far_lights_;
   DirectLight direct_;
 };
 

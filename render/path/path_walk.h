@@ -83,21 +83,13 @@ class PathWalk {
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
-  enum VertexDimension : uint32_t {
-    kLight = 0,
-    kLobe = 1,
-    kRoulette = 3,
-    kLightChoice = 4,
-    kVertexDimensions = 5
-  };
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
   /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
 
   /// Sets the next random number of the path to a dimension of the current vertex.
   static void seek(PathState& path, VertexDimension dimension) {
-    path.stream.seek(static_cast<uint32_t>(SampleDimension::kFirstVertex) + kVertexDimensions * path.vertex +
-                     dimension);
+    pelage::seek(path.stream, dimension, path.vertex);
   }
   /// Continues a path that has hit its next vertex.
   void walk_on(PathState& path, DirectLightScratch& lights, SampleScratch& scratch, Sink& sink) const {
@@ -167,12 +159,12 @@ Ray PathWalk<Sink>::leaving_ray(const ScatterPoint& point, const V3f& direction,
 template <class Sink>
 void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
                                    SampleScratch& scratch, Sink& sink) const {
-  seek(path, kLight);
+  seek(path, VertexDimension::kLight);
   const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
   direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
   scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
   if (lights.points.empty()) return;
-  seek(path, kLightChoice);
+  seek(path, VertexDimension::kLightChoice);
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
@@ -207,7 +199,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
                                   SampleScratch& scratch, Sink& sink) const {
   const bool last = is_last(path);
   if (last && options_.direct == DirectTechniques::kLightsOnly) return false;
-  seek(path, kLobe);
+  seek(path, VertexDimension::kLobe);
   const auto sample = point.sample(path.stream.next3d());
   if (!sample) return false;
   const FibreValue& value = sample->value;
@@ -227,7 +219,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
   float survived = 1;
   if (options_.roulette) {
     survived = survival(path.weight);
-    seek(path, kRoulette);
+    seek(path, VertexDimension::kRoulette);
     if (path.stream.next1d() >= survived) return false;
     path.throughput /= survived;
     path.weight /= survived;

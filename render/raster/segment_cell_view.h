@@ -13,7 +13,7 @@
 
 namespace pelage {
 
-/// Converts the fine boxes of a chunk to boxes in the frame of a tile.
+/// Converts the cell bounds of a chunk to boxes in the frame of a tile.
 class SegmentCellView {
  public:
   /// `margin`: by which boxes are enlarged on every side, in scene units.

@@ -193,25 +193,26 @@ void TileRaster::find_candidates(std::array<bool, 2> wanted, const Beam& beam, f
 /// wider than strands, so drawing a chunk whose boxes are hidden could change which samples are traced.
 bool TileRaster::may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
   if (!drawing.may_see(seen_box(chunks_.boxes().whole(chunk)))) return false;
-  return !chunks_.boxes().has_fine(chunk) || segment_cell_bounds_may_be_seen(chunk, drawing);
+  return !chunks_.boxes().has_cell_bounds(chunk) || segment_cell_bounds_may_be_seen(chunk, drawing);
 }
 
 bool TileRaster::segment_cell_bounds_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
-  const SegmentCellBounds& fine = chunks_.boxes().fine(chunk);
+  const SegmentCellBounds& cell_bounds = chunks_.boxes().cell_bounds(chunk);
   // No strand of the chunk is widened more than one at the farthest point of its box.
   const Box3f& whole = chunks_.boxes().whole(chunk);
   const float wider = whole.isEmpty() ? 0 : whole.min.x - seen_box(whole).min.x;
-  const SegmentCellView view(drawing.frame(), fine.grid(), chunks_.boxes().margin(chunk) + 1.001f * wider);
+  const SegmentCellView view(drawing.frame(), cell_bounds.grid(),
+                             chunks_.boxes().margin(chunk) + 1.001f * wider);
   if (!view.is_finite()) return true;
   // Three siblings wait on each level below the highest; 2^32 boxes have 16 levels.
   struct {
     size_t level, group;
   } stack[64];
   size_t waiting = 0;
-  stack[waiting++] = {fine.levels() - 1, 0};
+  stack[waiting++] = {cell_bounds.levels() - 1, 0};
   while (waiting > 0) {
     const auto [level, at] = stack[--waiting];
-    const SegmentCellBounds::Group& group = fine.level(level)[at];
+    const SegmentCellBounds::Group& group = cell_bounds.level(level)[at];
     const std::array<bool, 4> seen = drawing.may_see(view(group));
     for (size_t lane = 4; lane-- > 0;) {
       if (!seen[lane] || !SegmentCellView::exists(group, lane)) continue;

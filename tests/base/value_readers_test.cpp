@@ -148,7 +148,7 @@ TEST(ValueReaders, Enumerations) {
   EXPECT_EQ(problem_of<Shape>(scalar("round_box")),
             "expected box | round-box, got 'round_box'; did you mean 'round-box'?");
   EXPECT_EQ(problem_of<Shape>(scalar("sphere")), "expected box | round-box, got 'sphere'");
-  EXPECT_EQ(problem_of<Shape>(scalar("sphere"), {.removed = {{"sphere", "use a round box"}}}),
+  EXPECT_EQ(problem_of<Shape>(scalar("sphere"), {.removed = {"sphere", "use a round box"}}),
             "'sphere' was removed: use a round box");
   EXPECT_EQ(ValueReader<Shape>::print(Shape::kRoundBox), "round-box");
 }

@@ -59,9 +59,11 @@ class PrivateNames(unittest.TestCase):
             self.assertEqual(list(shared_names(folder)), [])
 
     def test_modules(self):
-        modules = [path.parent for path in sorted(ROOT.glob("*/CMakeLists.txt")) if path.parent.name not in ("tests", "bench", "build")]
+        modules = [path.parent for path in sorted([*ROOT.glob("*/CMakeLists.txt"), *ROOT.glob("*/*/CMakeLists.txt")])
+                   if path.relative_to(ROOT).parts[0] not in ("tests", "bench", "build")]
         self.assertGreater(len(modules), 10)
-        problems = [problem for module in modules + sorted(path.parent for path in ROOT.glob("tests/*/CMakeLists.txt"))
+        problems = [problem for module in modules + sorted(path.parent for path in (ROOT / "tests").rglob("CMakeLists.txt")
+                                                       if path.parent != ROOT / "tests")
                     for problem in shared_names(module)]
         self.assertEqual(problems, [], "\n".join(problems))
 

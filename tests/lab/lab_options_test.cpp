@@ -50,12 +50,10 @@ TEST(LabOptionsTest, OfMeasure) {
   EXPECT_NE(problem({"measure", "zebra", "s"}).find("expected one of bounces, bounds"), std::string::npos);
   EXPECT_NE(problem({"measure", "bounds", "s", "--time-limit", "nan"}).find("greater than 0"),
             std::string::npos);
-  const LabOptions lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
-  EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
+  const LabOptions lod = parsed({"measure", "lod", "s", "--parts", "crowd,dolly"});
   EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
   EXPECT_EQ(problem({"measure", "lod", "s", "--parts", "crowds"}),
             "--parts: unknown part 'crowds'; did you mean 'crowd'?");
-  EXPECT_NE(problem({"measure", "lod", "s", "--characters", "0"}), "");
   const LabOptions shading = parsed({"measure", "shading", "s", "--samples", "64,2,64", "--reference-samples",
                                      "8", "--parts", "gather,reuse"});
   EXPECT_EQ(shading.experiment, Experiment::kShading);

@@ -70,7 +70,7 @@ inline bool same(const SegmentCellBounds& a, const SegmentCellBounds& b) {
 
 inline bool same(const std::vector<ChunkBounds>& a, const std::vector<ChunkBounds>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ChunkBounds& x, const ChunkBounds& y) {
-    return x.keys == y.keys && x.boxes == y.boxes && same(x.fine, y.fine);
+    return x.keys == y.keys && x.boxes == y.boxes && same(x.cell_bounds, y.cell_bounds);
   });
 }
 

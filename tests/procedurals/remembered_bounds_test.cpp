@@ -152,7 +152,7 @@ TEST_F(RememberedBounds, CanBeHadInOnePart) {
     for (const ChunkBounds* one : {&cold[i], &warm[i]}) {
       ASSERT_EQ(one->part_count(), 1u);
       EXPECT_EQ(one->boxes[0], parts[i].whole());
-      EXPECT_TRUE(same(one->fine, parts[i].fine));
+      EXPECT_TRUE(same(one->cell_bounds, parts[i].cell_bounds));
     }
   }
   EXPECT_GT(max, 1u);

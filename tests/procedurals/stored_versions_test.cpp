@@ -24,13 +24,13 @@ TEST(StoredVersions, Boxes) {
     for (const Box3f& box : bounds.boxes) {
       for (const V3f& v : {box.min, box.max}) boxes.insert(boxes.end(), {v.x, v.y, v.z});
     }
-    std::vector<float> fine;
-    for (size_t b = 0; b < bounds.fine.count(); ++b) {
-      const Box3f box = bounds.fine.box(b, 0.25f);
-      for (const V3f& v : {box.min, box.max}) fine.insert(fine.end(), {v.x, v.y, v.z});
+    std::vector<float> cell_bounds;
+    for (size_t b = 0; b < bounds.cell_bounds.count(); ++b) {
+      const Box3f box = bounds.cell_bounds.box(b, 0.25f);
+      for (const V3f& v : {box.min, box.max}) cell_bounds.insert(cell_bounds.end(), {v.x, v.y, v.z});
     }
     result.add("boxes at " + std::to_string(keys), boxes);
-    result.add("fine boxes at " + std::to_string(keys), fine);
+    result.add("cell bounds at " + std::to_string(keys), cell_bounds);
   }
   RecordedResults().check("boxes", {{"boxes", kBoundsVersion}},
                           "kBoundsVersion in procedurals/bounds/bounds_file.h", result);

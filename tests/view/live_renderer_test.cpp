@@ -30,7 +30,7 @@ class LiveRendererTest : public testing::Test {
 
   bool wait_until(const std::function<bool(const ViewStatus&)>& holds) const {
     for (int i = 0; i < 60'000; ++i) {  // ten minutes: a sanitizer on a busy machine is slow
-      if (holds(desk_.status())) return true;
+      if (holds(state_.status())) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return false;
@@ -52,7 +52,7 @@ class LiveRendererTest : public testing::Test {
     const FrameResult truth = render(world, job);
     const std::vector<ExrChannel> wanted = truth.film.exr_rows(0, truth.film.height());
     std::vector<ExrChannel> shown;
-    ASSERT_TRUE(desk_.with_frame([&](const FinishedFrame& frame) {
+    ASSERT_TRUE(state_.with_frame([&](const FinishedFrame& frame) {
       shown = frame.result.film.exr_rows(0, frame.result.film.height());
     }));
     ASSERT_EQ(shown.size(), wanted.size());
@@ -70,16 +70,16 @@ class LiveRendererTest : public testing::Test {
   }
 
   SmallScene scene_{true};
-  ViewState desk_;
+  ViewState state_;
 };
 
 TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   ASSERT_TRUE(rests(0));
   expect_rendered();
-  EXPECT_EQ(desk_.status().strands_regrown, 0);
-  EXPECT_GT(desk_.status().first_pixels_s, 0);
+  EXPECT_EQ(state_.status().strands_regrown, 0);
+  EXPECT_GT(state_.status().first_pixels_s, 0);
 
   struct Edit {
     const char *from, *to;
@@ -97,9 +97,9 @@ TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {
   int count = 0;
   for (const Edit& edit : edits) {
     replace(edit.from, edit.to);
-    ASSERT_TRUE(rests(++count)) << edit.to << desk_.status().error();
+    ASSERT_TRUE(rests(++count)) << edit.to << state_.status().error();
     expect_rendered();
-    EXPECT_EQ(desk_.status().strands_regrown > 0, edit.regrows) << edit.to;
+    EXPECT_EQ(state_.status().strands_regrown > 0, edit.regrows) << edit.to;
   }
 }
 
@@ -108,11 +108,11 @@ TEST_F(LiveRendererTest, OnlyTheCoatThatChangesGrowsAgain) {
   replace("materials:",
           "  fuzz: {skin: still, strands: 300, operators: [{length: {value: 0.2}}]}\nmaterials:");
   replace("{skin: still, material: hide}", "{skin: still, material: hide, grooms: {fuzz: fur}}");
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   ASSERT_TRUE(rests(0));
   expect_rendered();
-  const int64_t memory = desk_.status().memory_bytes;
+  const int64_t memory = state_.status().memory_bytes;
 
   struct Edit {
     const char *from, *to;
@@ -139,30 +139,30 @@ TEST_F(LiveRendererTest, OnlyTheCoatThatChangesGrowsAgain) {
   int count = 0;
   for (const Edit& edit : edits) {
     replace(edit.from, edit.to);
-    ASSERT_TRUE(rests(++count)) << edit.to << desk_.status().error();
+    ASSERT_TRUE(rests(++count)) << edit.to << state_.status().error();
     expect_rendered();
-    EXPECT_EQ(desk_.status().strands_regrown, edit.regrown) << edit.to;
+    EXPECT_EQ(state_.status().strands_regrown, edit.regrown) << edit.to;
   }
-  EXPECT_LT(desk_.status().memory_bytes, memory + (memory >> 1)) << "old chunks are freed";
+  EXPECT_LT(state_.status().memory_bytes, memory + (memory >> 1)) << "old chunks are freed";
 }
 
 TEST_F(LiveRendererTest, AMapIsReadAgain) {
   write_map(50);
   replace("length: {value: 0.4}", "length: {value: {map: map.ppm, channel: r}}");
   replace("{model: lambert, color: 0.4}", "{model: lambert, color: {map: map.ppm}}");
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
-  ASSERT_TRUE(rests(0)) << desk_.status().error();
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
+  ASSERT_TRUE(rests(0)) << state_.status().error();
   expect_rendered();
   write_map(120);
   ASSERT_TRUE(rests(1));
   expect_rendered();
-  EXPECT_EQ(desk_.status().strands_regrown, 400);
+  EXPECT_EQ(state_.status().strands_regrown, 400);
 }
 
 TEST_F(LiveRendererTest, AnAssetIsReadAgain) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   ASSERT_TRUE(rests(0));
   for (const char* pose : {"cube.0001.obj", "cube.obj"}) {
     std::string cage = read_file(scene_.path(pose));
@@ -174,53 +174,53 @@ TEST_F(LiveRendererTest, AnAssetIsReadAgain) {
 }
 
 TEST_F(LiveRendererTest, AWrongEditKeepsThePictureAndSaysWhy) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   ASSERT_TRUE(rests(0));
   const std::string good = text();
-  const uint64_t version = desk_.picture()->version;
+  const uint64_t version = state_.picture()->version;
   const auto shows = [&](const std::string& what) {
     return wait_until([&](const ViewStatus& s) { return s.error().find(what) != std::string::npos; });
   };
   scene_.write("scene.yaml", good + "nonsense: [\n");
   ASSERT_TRUE(shows("scene.yaml:"));
-  EXPECT_FALSE(desk_.status().done());
-  EXPECT_EQ(desk_.picture()->version, version);
+  EXPECT_FALSE(state_.status().done());
+  EXPECT_EQ(state_.picture()->version, version);
 
   scene_.write("scene.yaml", good + "# a comment\n");  // nothing to render
   ASSERT_TRUE(rests(0));
-  EXPECT_EQ(desk_.picture()->version, version);
+  EXPECT_EQ(state_.picture()->version, version);
   expect_rendered();
 
   replace("mesh: cube.obj, poses", "mesh: none.obj, poses");
   ASSERT_TRUE(shows("no such file"));
-  EXPECT_EQ(desk_.picture()->version, version) << "the last good picture stays";
-  EXPECT_TRUE(desk_.with_frame([](const FinishedFrame&) {})) << "with all layers";
-  EXPECT_FALSE(desk_.status().done());
+  EXPECT_EQ(state_.picture()->version, version) << "the last good picture stays";
+  EXPECT_TRUE(state_.with_frame([](const FinishedFrame&) {})) << "with all layers";
+  EXPECT_FALSE(state_.status().done());
   scene_.write("none.obj", read_file(scene_.path("cube.obj")));  // the missing file arrives
-  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << desk_.status().error();
+  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << state_.status().error();
   expect_rendered();
 
   replace("render: {", "include: more.yaml\nrender: {");
   ASSERT_TRUE(shows("more.yaml"));
   scene_.write("more.yaml", "lights: {more: {type: environment, radiance: 0.2}}\n");
-  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << desk_.status().error();
+  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << state_.status().error();
   expect_rendered();
 }
 
 TEST_F(LiveRendererTest, ManyEditsAndReadersAtOnce) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   std::atomic<bool> ends{false};
   std::thread reader([&] {
     while (!ends) {
-      const ViewStatus status = desk_.status();
+      const ViewStatus status = state_.status();
       for (const std::string& layer : status.layers) {
-        const auto picture = desk_.with_layers({layer});
+        const auto picture = state_.with_layers({layer});
         if (!picture || !picture->layers.contains(layer)) continue;
         EXPECT_FALSE(layer_bytes(*picture, {layer}).empty());
       }
-      desk_.with_frame([](const FinishedFrame& frame) { EXPECT_EQ(frame.result.film.height(), 16); });
+      state_.with_frame([](const FinishedFrame& frame) { EXPECT_EQ(frame.result.film.height(), 16); });
     }
   });
   replace("samples: 4", "samples: 40");
@@ -238,10 +238,10 @@ TEST_F(LiveRendererTest, ManyEditsAndReadersAtOnce) {
 }
 
 TEST_F(LiveRendererTest, ExplainsPixelsOfThePicture) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   const auto ask = [this](int x, int y) {
-    const CommandAnswer answer = desk_.why().ask(x, y, [] { return false; });
+    const CommandAnswer answer = state_.why().ask(x, y, [] { return false; });
     return std::pair(answer.status, nlohmann::json::parse(answer.json));
   };
   ASSERT_TRUE(rests(0));
@@ -250,7 +250,7 @@ TEST_F(LiveRendererTest, ExplainsPixelsOfThePicture) {
     for (int x = 0; x < 24; x += 3) {
       const auto [status, why] = ask(x, 8);
       ASSERT_EQ(status, 200) << why;
-      desk_.with_frame([&](const FinishedFrame& frame) {
+      state_.with_frame([&](const FinishedFrame& frame) {
         const Rgb shown = frame.result.film.radiance(x, 8);
         EXPECT_EQ(why["radiance"], nlohmann::json({shown.x, shown.y, shown.z}));
         const uint32_t id = frame.result.film.surface(x, 8).id;
@@ -278,9 +278,9 @@ TEST_F(LiveRendererTest, ExplainsPixelsOfThePicture) {
 }
 
 TEST_F(LiveRendererTest, AnswersWhileItRendersAndWhileTheSceneChanges) {
-  LiveRenderer renderer(desk_, 2);
+  LiveRenderer renderer(state_, 2);
   const SceneFollower follower(path(), {{"render.samples", "100000"}, {"render.bounces", "0"}}, renderer,
-                               desk_);
+                               state_);
   ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.first_pixels_s > 0; }));
   std::atomic<bool> ends{false};
   std::atomic<int> answers{0};
@@ -288,7 +288,7 @@ TEST_F(LiveRendererTest, AnswersWhileItRendersAndWhileTheSceneChanges) {
   for (int i = 0; i < 2; ++i) {
     clients.emplace_back([&, i] {
       while (!ends) {
-        const CommandAnswer answer = desk_.why().ask(10 + i, 8, [&] { return ends.load(); });
+        const CommandAnswer answer = state_.why().ask(10 + i, 8, [&] { return ends.load(); });
         if (answer.status == 200) ++answers;
       }
     });
@@ -299,27 +299,27 @@ TEST_F(LiveRendererTest, AnswersWhileItRendersAndWhileTheSceneChanges) {
     EXPECT_TRUE(wait_until([&](const ViewStatus&) { return answers > before; }));
     replace("value: 0.4", "value: 0.44");
   }
-  EXPECT_FALSE(desk_.status().done()) << "it still renders";
+  EXPECT_FALSE(state_.status().done()) << "it still renders";
   ends = true;
   for (std::thread& client : clients) client.join();
 }
 
 TEST_F(LiveRendererTest, GatherShowsItsOwnPasses) {
   replace("samples: 4", "samples: 100000, integrator: gather");
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
   // The pass with `path` has one sample.
   ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.mean_samples > 1; }));
-  EXPECT_FALSE(desk_.status().done());
-  EXPECT_GT(desk_.picture()->samples, 1u);
+  EXPECT_FALSE(state_.status().done());
+  EXPECT_GT(state_.picture()->samples, 1u);
 }
 
 TEST_F(LiveRendererTest, EndsInTheMiddleOfARender) {
-  LiveRenderer renderer(desk_, 2);
-  const SceneFollower follower(path(), {{"render.samples", "1000000"}}, renderer, desk_);
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {{"render.samples", "1000000"}}, renderer, state_);
   ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.first_pixels_s > 0; }));
-  EXPECT_FALSE(desk_.status().done());
-  EXPECT_FALSE(partial_exr(*desk_.picture()).empty());
+  EXPECT_FALSE(state_.status().done());
+  EXPECT_FALSE(partial_exr(*state_.picture()).empty());
 }
 
 }  // namespace

@@ -15,54 +15,54 @@ bool never() { return false; }
 CommandAnswer text_of(int x, int y) { return {200, std::to_string(x) + " " + std::to_string(y)}; }
 
 TEST(PixelQueries, EveryClientGetsItsAnswer) {
-  PixelQueries desk;
+  PixelQueries state;
   std::atomic<bool> ends{false};
   std::thread renderer([&] {
-    while (!ends) desk.answer(text_of);
+    while (!ends) state.answer(text_of);
   });
   std::vector<std::thread> clients;
   for (int i = 0; i < 6; ++i) {
-    clients.emplace_back([&desk, i] {
-      for (int k = 0; k < 50; ++k) EXPECT_EQ(desk.ask(i, k, never).json, text_of(i, k).json);
+    clients.emplace_back([&state, i] {
+      for (int k = 0; k < 50; ++k) EXPECT_EQ(state.ask(i, k, never).json, text_of(i, k).json);
     });
   }
   for (std::thread& client : clients) client.join();
   ends = true;
   renderer.join();
-  EXPECT_FALSE(desk.is_waiting());
+  EXPECT_FALSE(state.is_waiting());
 }
 
 TEST(PixelQueries, AQuestionStaysUntilItHasAnAnswer) {
-  PixelQueries desk;
+  PixelQueries state;
   std::atomic<int> asked{0};
-  desk.on_ask([&] { ++asked; });
+  state.on_ask([&] { ++asked; });
   CommandAnswer answer;
-  std::thread client([&] { answer = desk.ask(3, 4, never); });
-  while (!desk.is_waiting()) std::this_thread::yield();
-  desk.answer([](int, int) { return std::optional<CommandAnswer>(); });
-  EXPECT_TRUE(desk.is_waiting());
-  desk.answer(text_of);
+  std::thread client([&] { answer = state.ask(3, 4, never); });
+  while (!state.is_waiting()) std::this_thread::yield();
+  state.answer([](int, int) { return std::optional<CommandAnswer>(); });
+  EXPECT_TRUE(state.is_waiting());
+  state.answer(text_of);
   client.join();
   EXPECT_EQ(answer.json, "3 4");
   EXPECT_EQ(asked, 1);
-  desk.on_ask({});
+  state.on_ask({});
 }
 
 TEST(PixelQueries, ClientsGiveUpAndMayNotBeTooMany) {
-  PixelQueries desk;
+  PixelQueries state;
   std::atomic<bool> closing{false};
   std::atomic<int> refused{0};
   std::vector<std::thread> clients;
   for (int i = 0; i < 12; ++i) {
     clients.emplace_back([&] {
-      if (desk.ask(1, 2, [&] { return closing.load(); }).status == 503) ++refused;
+      if (state.ask(1, 2, [&] { return closing.load(); }).status == 503) ++refused;
     });
   }
   while (refused < 4) std::this_thread::yield();  // 8 wait
   closing = true;
   for (std::thread& client : clients) client.join();
   EXPECT_EQ(refused, 12);
-  EXPECT_FALSE(desk.is_waiting());
+  EXPECT_FALSE(state.is_waiting());
 }
 
 }  // namespace

@@ -20,28 +20,28 @@ class SceneCommandsTest : public testing::Test {
   /// Runs a command while the picture shows the scene file as it is.
   CommandAnswer run(const char* name, const std::string& body, const std::vector<Override>& overrides = {}) {
     show(overrides);
-    return SceneCommands(path(), overrides, desk_).run(name, body);
+    return SceneCommands(path(), overrides, state_).run(name, body);
   }
   void show(const std::vector<Override>& overrides = {}) {
-    desk_.update([&](ViewStatus& status) {
+    state_.update([&](ViewStatus& status) {
       status.edit = std::make_shared<const SceneEdit>(SceneEdit{load_scene(path(), overrides), {}});
     });
   }
   /// Expects that a command is refused with a message of one line, and changes nothing.
   void expect_refused(const char* name, const std::string& body, const std::string& why, int status = 400) {
     const std::string before = read_file(path());
-    const auto camera = desk_.control().camera();
+    const auto camera = state_.control().camera();
     const CommandAnswer answer = run(name, body);
     EXPECT_EQ(answer.status, status) << body;
     const std::string error = nlohmann::json::parse(answer.json)["error"];
     EXPECT_NE(error.find(why), std::string::npos) << body << ": " << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     EXPECT_EQ(read_file(path()), before);
-    EXPECT_EQ(desk_.control().camera(), camera);
+    EXPECT_EQ(state_.control().camera(), camera);
   }
 
   SmallScene scene_;
-  ViewState desk_;
+  ViewState state_;
 };
 
 TEST_F(SceneCommandsTest, LightsOfAMixAreTextAndCanBeWritten) {
@@ -69,7 +69,7 @@ TEST_F(SceneCommandsTest, LightsOfAMixAreTextAndCanBeWritten) {
 
 TEST_F(SceneCommandsTest, NothingIsWrittenForClientsElsewhere) {
   const std::string before = read_file(path());
-  const SceneCommands commands(path(), {}, desk_, false);
+  const SceneCommands commands(path(), {}, state_, false);
   show();
   const std::string lights = R"("edit": 0, "lights": {"key": {"stops": -1}}})";
   EXPECT_EQ(commands.run("lights.json", R"({"action": "text", )" + lights).status, 200);
@@ -83,7 +83,7 @@ TEST_F(SceneCommandsTest, LightsAreWrittenOnceForAPicture) {
   const std::string once = read_file(path());
   EXPECT_NE(once.find("intensity: 60"), std::string::npos);
   // The picture still shows the lights as they were.
-  const CommandAnswer again = SceneCommands(path(), {}, desk_).run("lights.json", write);
+  const CommandAnswer again = SceneCommands(path(), {}, state_).run("lights.json", write);
   EXPECT_EQ(again.status, 400);
   EXPECT_NE(again.json.find("the scene has changed"), std::string::npos) << again.json;
   EXPECT_EQ(read_file(path()), once);
@@ -110,7 +110,7 @@ TEST_F(SceneCommandsTest, AnAnimatedIntensityKeepsItsKeys) {
 TEST_F(SceneCommandsTest, ACameraIsMovedWrittenAndReset) {
   EXPECT_EQ(run("camera.json", R"({"action": "move", "position": [0, 1, 9.5], "look_at": [0, 1, 0]})").status,
             200);
-  EXPECT_EQ(desk_.control().camera(), (CameraMove{V3f(0, 1, 9.5f), V3f(0, 1, 0)}));
+  EXPECT_EQ(state_.control().camera(), (CameraMove{V3f(0, 1, 9.5f), V3f(0, 1, 0)}));
   const CommandAnswer text = run("camera.json", R"({"action": "text"})");
   EXPECT_EQ(nlohmann::json::parse(text.json)["text"],
             "camera:\n  position: [0, 1, 9.5]\n  look_at: [0, 1, 0]\n");
@@ -118,19 +118,19 @@ TEST_F(SceneCommandsTest, ACameraIsMovedWrittenAndReset) {
   wanted.replace(wanted.find("[3, 2, 8], look_at: [1, 0, 0]"), 29, "[0, 1, 9.5], look_at: [0, 1, 0]");
   EXPECT_EQ(run("camera.json", R"({"action": "write"})").status, 200);
   EXPECT_EQ(read_file(path()), wanted);
-  EXPECT_FALSE(desk_.control().camera());
+  EXPECT_FALSE(state_.control().camera());
   expect_refused("camera.json", R"({"action": "write"})", "nothing to write");
 
   run("camera.json", R"({"action": "move", "position": [0, 1, 9.5], "look_at": [0, 1, 0]})");
   EXPECT_EQ(run("camera.json", R"({"action": "reset"})").status, 200);
-  EXPECT_FALSE(desk_.control().camera());
+  EXPECT_FALSE(state_.control().camera());
 }
 
 TEST_F(SceneCommandsTest, ARegionIsSetAndCleared) {
   EXPECT_EQ(run("region.json", R"({"region": [1, 2, 30, 40]})").status, 200);
-  EXPECT_EQ(desk_.control().region()->y1, 40);
+  EXPECT_EQ(state_.control().region()->y1, 40);
   EXPECT_EQ(run("region.json", R"({"region": null})").status, 200);
-  EXPECT_FALSE(desk_.control().region());
+  EXPECT_FALSE(state_.control().region());
 }
 
 TEST_F(SceneCommandsTest, WrongParametersAreRefused) {

@@ -354,13 +354,13 @@ TEST_F(StrandFiles, ReadOptixFur) {
 
 TEST_F(StrandFiles, ReadSintel) {
   PELAGE_REQUIRE_DATA();
-  struct Case {
+  struct SintelFile {
     const char* name;
     size_t strands;
     uint32_t points;
   };
-  for (const Case& c :
-       {Case{"SintelHairOriginal.16points.tfx", 11400, 16}, Case{"sintel_hair_emit.002.tfx", 228, 32}}) {
+  for (const SintelFile& c : {SintelFile{"SintelHairOriginal.16points.tfx", 11400, 16},
+                              SintelFile{"sintel_hair_emit.002.tfx", 228, 32}}) {
     const std::filesystem::path path = data_folder() / "tfx" / c.name;
     const StrandFile read = read_strands(path);
     EXPECT_EQ(read.strands.strand_count() + static_cast<size_t>(read.repairs.dropped), c.strands);

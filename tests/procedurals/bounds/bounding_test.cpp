@@ -33,9 +33,9 @@ TEST_P(RandomBounds, HoldEveryPointAtEveryTimeOfTheShutter) {
     const std::vector<ChunkBounds> bounds = bounds_of(coat_.chunks, {strategy});
     for (size_t leaf = 0; leaf < coat_.leaves.size(); ++leaf) {
       const Strands strands = coat_.leaves[leaf]->generate();
-      // Sides of fine boxes are handed out as floats, which resolve no more than this there.
+      // Sides of cell bounds are handed out as floats, which resolve no more than this there.
       const float rounding = 0x1p-22f * bounds[leaf].whole().max.length();
-      ASSERT_EQ(bounds[leaf].fine.count() > 0, strategy != BoundingStrategy::kConservative);
+      ASSERT_EQ(bounds[leaf].cell_bounds.count() > 0, strategy != BoundingStrategy::kConservative);
       ASSERT_EQ(bounds[leaf].keys, strategy == BoundingStrategy::kLinear ? 2 : 1);
       for (int step = 0; step <= 12; ++step) {
         const float time = static_cast<float>(step) / 12;
@@ -46,10 +46,10 @@ TEST_P(RandomBounds, HoldEveryPointAtEveryTimeOfTheShutter) {
           for (size_t p = 0; p < bounds[leaf].part_count() && !inside; ++p) {
             inside = contains(at_time(bounds[leaf], p, time), ball);
           }
-          if (bounds[leaf].fine.count() > 0 && inside) {
+          if (bounds[leaf].cell_bounds.count() > 0 && inside) {
             inside = false;
-            for (size_t b = 0; b < bounds[leaf].fine.count() && !inside; ++b) {
-              inside = contains(grown(bounds[leaf].fine.box(b, time), rounding), ball);
+            for (size_t b = 0; b < bounds[leaf].cell_bounds.count() && !inside; ++b) {
+              inside = contains(grown(bounds[leaf].cell_bounds.box(b, time), rounding), ball);
             }
           }
           outside += !inside;

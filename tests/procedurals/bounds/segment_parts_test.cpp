@@ -44,7 +44,7 @@ TEST(SegmentParts, HoldEverySegmentOnceInCellsOfEqualSize) {
   }
   const ChunkBounds none = SegmentParts(Strands()).exact_bounds(1);
   EXPECT_TRUE(none.boxes.empty());
-  EXPECT_EQ(none.fine.count(), 0u);
+  EXPECT_EQ(none.cell_bounds.count(), 0u);
 }
 
 TEST(SegmentParts, AreCompact) {
@@ -57,9 +57,10 @@ TEST(SegmentParts, AreCompact) {
   // Roots fill a cube, so 64 cubes of a quarter of its side would have 4 times its surface between them, and
   // 512 of an eighth 8 times.
   EXPECT_LT(sum / surface_area(bounds.whole()), 4.5);
-  double fine = 0;
-  for (size_t c = 0; c < bounds.fine.count(); ++c) fine += surface_area(bounds.fine.box(c, 0));
-  EXPECT_LT(fine / surface_area(bounds.whole()), 9);
+  double cell_bounds = 0;
+  for (size_t c = 0; c < bounds.cell_bounds.count(); ++c)
+    cell_bounds += surface_area(bounds.cell_bounds.box(c, 0));
+  EXPECT_LT(cell_bounds / surface_area(bounds.whole()), 9);
 }
 
 TEST(SegmentParts, OneKeyIsTheExactBoxOfThePart) {
@@ -107,7 +108,7 @@ TEST(SegmentParts, HoldTheirSegmentsAtEveryTime) {
       const SegmentParts parts(strands, {.cell_segments = 11, .part_cells = 4});
       const ChunkBounds bounds = parts.exact_bounds(bound_keys);
       ASSERT_EQ(bounds.part_count(), parts.part_count());
-      ASSERT_EQ(bounds.fine.count(), parts.cell_count());
+      ASSERT_EQ(bounds.cell_bounds.count(), parts.cell_count());
       // Sides are handed out as floats, which resolve no more than this at that distance.
       const V3f rounding(0x1p-22f * 300);
       for (int step = 0; step <= 60; ++step) {
@@ -116,7 +117,7 @@ TEST(SegmentParts, HoldTheirSegmentsAtEveryTime) {
           expect_held(at_time(bounds, p, time), parts.part(p), strands, time);
         }
         for (size_t c = 0; c < parts.cell_count(); ++c) {
-          const Box3f box = bounds.fine.box(c, time);
+          const Box3f box = bounds.cell_bounds.box(c, time);
           expect_held({box.min - rounding, box.max + rounding}, parts.cell(c), strands, time);
         }
       }
@@ -138,7 +139,7 @@ TEST(SegmentParts, TwoKeysAreExactAtTheEndsOfAStraightMotion) {
   }
 }
 
-// A chunk that moves as a whole has fine boxes as small as those of a static one.
+// A chunk that moves as a whole has cell bounds as small as those of a static one.
 TEST(SegmentParts, SegmentCellBoundsMoveWithTheChunk) {
   StrandArrays arrays = Strands(random_strands(8, {.strands = 300})).release();
   const ChunkBounds still = SegmentParts(Strands(arrays)).exact_bounds(2);
@@ -148,10 +149,10 @@ TEST(SegmentParts, SegmentCellBoundsMoveWithTheChunk) {
   const ChunkBounds moving = SegmentParts(Strands(arrays)).exact_bounds(2);
   const ChunkBounds swept = SegmentParts(Strands(arrays)).exact_bounds(1);
   double still_area = 0, moving_area = 0, swept_area = 0;
-  for (size_t c = 0; c < still.fine.count(); ++c) {
-    still_area += surface_area(still.fine.box(c, 0));
-    moving_area += surface_area(moving.fine.box(c, 0.5f));
-    swept_area += surface_area(swept.fine.box(c, 0.5f));
+  for (size_t c = 0; c < still.cell_bounds.count(); ++c) {
+    still_area += surface_area(still.cell_bounds.box(c, 0));
+    moving_area += surface_area(moving.cell_bounds.box(c, 0.5f));
+    swept_area += surface_area(swept.cell_bounds.box(c, 0.5f));
   }
   EXPECT_NEAR(moving_area / still_area, 1, 0.01);
   EXPECT_GT(swept_area / still_area, 2);

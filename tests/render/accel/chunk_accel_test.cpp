@@ -236,12 +236,12 @@ TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
   const TestChunks chunks = random_chunks(7, crowded);
   const auto oracle = chunks.oracle(CurveShape::kFlat);
   const FlushDenormals flush;
-  const std::vector<ChunkBounds> parts = chunks.bounds(40), fine = chunks.measured_bounds(1);
+  const std::vector<ChunkBounds> parts = chunks.bounds(40), cell_bounds = chunks.measured_bounds(1);
   TraceThread a, b;
   uint64_t strands = 0;
   for (uint64_t i = 0; i < 60; ++i) {
     const Ray ray = inner_ray(9, i);
-    const std::vector<ChunkBounds>& bounds = i % 3 == 0 ? parts : fine;
+    const std::vector<ChunkBounds>& bounds = i % 3 == 0 ? parts : cell_bounds;
     const Hit expected = oracle->closest(ray, a), cold = make(chunks, bounds)->closest(ray, b);
     ASSERT_EQ(cold.strand_id, expected.strand_id) << i;
     ASSERT_EQ(cold.distance, expected.distance) << i;
@@ -259,7 +259,7 @@ TEST_F(ChunkAccelTest, RaysThatMeetNoSegmentCellLetNothingGrow) {
       chunks.measured_bounds(1, {.cell_segments = 1, .part_cells = 1024});
   ASSERT_EQ(measured[0].part_count(), 1u);
   std::vector<ChunkBounds> coarse = measured;
-  coarse[0].fine = {};
+  coarse[0].cell_bounds = {};
   Ray between;
   between.origin = {3, -1, 0.5f};
   between.direction = {0, 1, 0};
@@ -268,18 +268,18 @@ TEST_F(ChunkAccelTest, RaysThatMeetNoSegmentCellLetNothingGrow) {
   before.far = 0.4f;
   TraceThread thread;
   for (const Ray& ray : {between, before}) {
-    const auto fine = make(chunks, measured), without = make(chunks, coarse);
-    EXPECT_FALSE(fine->closest(ray, thread));
-    EXPECT_EQ(fine->transmittance(ray, thread), 1.0f);
-    EXPECT_EQ(fine->chunks().counts().expansions, 0);
+    const auto cell_bounds = make(chunks, measured), without = make(chunks, coarse);
+    EXPECT_FALSE(cell_bounds->closest(ray, thread));
+    EXPECT_EQ(cell_bounds->transmittance(ray, thread), 1.0f);
+    EXPECT_EQ(cell_bounds->chunks().counts().expansions, 0);
     EXPECT_FALSE(without->closest(ray, thread));
     EXPECT_EQ(without->chunks().counts().expansions, 1);
   }
   before.far = 0.6f;
-  const auto fine = make(chunks, measured);
-  EXPECT_TRUE(fine->closest(before, thread));
-  EXPECT_EQ(fine->transmittance(before, thread), 0.0f);
-  EXPECT_EQ(fine->chunks().counts().expansions, 1);
+  const auto cell_bounds = make(chunks, measured);
+  EXPECT_TRUE(cell_bounds->closest(before, thread));
+  EXPECT_EQ(cell_bounds->transmittance(before, thread), 0.0f);
+  EXPECT_EQ(cell_bounds->chunks().counts().expansions, 1);
 }
 
 }  // namespace

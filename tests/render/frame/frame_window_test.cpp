@@ -206,7 +206,7 @@ TEST(FrameWatch, RefinesARegionFirstAndChangesNoPixel) {
     FrameOptions options;
     options.watch = &watch;
     const FrameResult watched = rendered(scene, options, 3);
-    EXPECT_EQ(watch.refined_first, kind != std::string("two-stage")) << kind;
+    EXPECT_EQ(watch.refined_first, kind != std::string("adaptive")) << kind;
     EXPECT_EQ(watched.mean_samples, alone.mean_samples) << kind;
     expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
   }

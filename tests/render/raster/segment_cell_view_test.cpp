@@ -22,19 +22,19 @@ TEST(SegmentCellView, BoxesContainTheCornersOfSegmentCellBounds) {
     const V3f half(0.02f * (1.5f + unit_float(hash64(i, 3))));
     boxes.emplace_back(centre - half, centre + half);
   }
-  const SegmentCellBounds fine(boxes, 2);
+  const SegmentCellBounds cell_bounds(boxes, 2);
   const float margin = 0.01f;
   const TileFrame frame = TileFrame::along(V3f(1, 2, 3), V3f(0.6f, 0, 0.8f));
-  const SegmentCellView view(frame, fine.grid(), margin);
+  const SegmentCellView view(frame, cell_bounds.grid(), margin);
   size_t checked = 0;
-  for (size_t g = 0; g < fine.level(0).size(); ++g) {
-    const FourViewBoxes seen = view(fine.level(0)[g]);
+  for (size_t g = 0; g < cell_bounds.level(0).size(); ++g) {
+    const FourViewBoxes seen = view(cell_bounds.level(0)[g]);
     for (size_t lane = 0; lane < 4; ++lane) {
       const size_t b = 4 * g + lane;
-      ASSERT_EQ(SegmentCellView::exists(fine.level(0)[g], lane), b < fine.count());
-      if (b >= fine.count()) continue;
+      ASSERT_EQ(SegmentCellView::exists(cell_bounds.level(0)[g], lane), b < cell_bounds.count());
+      if (b >= cell_bounds.count()) continue;
       for (const float time : {0.0f, 0.5f, 1.0f}) {
-        const Box3f box = fine.box(b, time);
+        const Box3f box = cell_bounds.box(b, time);
         for (int corner = 0; corner < 8; ++corner) {
           const V3f at = frame.local({corner & 1 ? box.max.x + margin : box.min.x - margin,
                                       corner & 2 ? box.max.y + margin : box.min.y - margin,

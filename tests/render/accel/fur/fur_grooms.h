@@ -44,7 +44,7 @@ inline std::vector<GroomShape> groom_shapes() {
 }
 
 /// Those, and one so far away that floats of the scene have steps of an eighth of a strand: its grid is as
-/// fine as ever, but boxes that stand in the scene hold little but each other.
+/// cell_bounds as ever, but boxes that stand in the scene hold little but each other.
 inline std::vector<GroomShape> groom_shapes_at_any_distance() {
   std::vector<GroomShape> shapes = groom_shapes();
   GroomShape& far = shapes.emplace_back();
