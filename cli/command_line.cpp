@@ -15,8 +15,6 @@
 namespace pelage {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
 std::vector<std::string> flag_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -34,26 +32,27 @@ std::string see_help(const CLI::App& app) {
 /// Fails because of an argument that `app` does not know. Suggests the nearest known one.
 [[noreturn]] void fail_extras(const CLI::App& app) {
   for (const std::string& extra : app.remaining(true)) {
-    if (!extra.starts_with("-")) fail("unexpected argument " + quote(extra));
+    if (!extra.starts_with("-")) fail_arguments("unexpected argument " + quote(extra));
     const std::string flag = extra.substr(0, extra.find('='));
     const std::string near = did_you_mean(flag, flag_names(app));
-    fail("unknown option " + quote(flag) + (near.empty() ? see_help(app) : near));
+    fail_arguments("unknown option " + quote(flag) + (near.empty() ? see_help(app) : near));
   }
-  fail("cannot parse the arguments" + see_help(app));
+  fail_arguments("cannot parse the arguments" + see_help(app));
 }
 
 void check_file_names(const CLI::App& app) {
   for (const char* name : {"--output", "--stats"}) {
     const CLI::Option* option = app.get_option_no_throw(name);
     if (!option || option->count() == 0 || !option->results().back().empty()) continue;
-    fail(std::string(option->check_name("-o") ? "-o" : name) + ": expected a name, got an empty one");
+    fail_arguments(std::string(option->check_name("-o") ? "-o" : name) +
+                   ": expected a name, got an empty one");
   }
 }
 
 /// Returns the command that the first argument names; `app` itself if that is a flag. Otherwise an unknown
 /// first word would be reported as a superfluous argument.
 const CLI::App* chosen_command(const CLI::App& app, const std::vector<std::string>& arguments) {
-  if (arguments.empty()) fail("expected a command" + see_help(app));
+  if (arguments.empty()) fail_arguments("expected a command" + see_help(app));
   if (arguments[0].starts_with("-")) return &app;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) {
@@ -64,10 +63,12 @@ const CLI::App* chosen_command(const CLI::App& app, const std::vector<std::strin
   std::string hint = did_you_mean(arguments[0], names);
   for (const std::string& name : hint.empty() ? names : std::vector<std::string>())
     hint += (hint.empty() ? "; expected one of " : ", ") + name;
-  fail("unknown command " + quote(arguments[0]) + hint);
+  fail_arguments("unknown command " + quote(arguments[0]) + hint);
 }
 
 }  // namespace
+
+void fail_arguments(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
 std::unique_ptr<CLI::App> make_parser(const std::string& description, const std::string& program,
                                       const std::string& footer) {
@@ -94,7 +95,7 @@ bool parse_command_line(CLI::App& app, const std::vector<std::string>& arguments
     if (chosen == &app && app.remaining_size() > 0) fail_extras(app);
     std::string message = error.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
-    fail(message + see_help(*chosen));
+    fail_arguments(message + see_help(*chosen));
   }
   check_file_names(*chosen);
   return true;

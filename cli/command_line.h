@@ -12,6 +12,9 @@ class App;
 
 namespace pelage {
 
+/// Throws Error (kArguments).
+[[noreturn]] void fail_arguments(const std::string& message);
+
 /// Creates the command-line parser of a program, with the flags that every program has. `footer`: last line
 /// of --help.
 std::unique_ptr<CLI::App> make_parser(const std::string& description, const std::string& program,

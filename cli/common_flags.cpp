@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/value_readers.h"
+#include "cli/command_line.h"
 #include "cli/number_checks.h"
 #include "world/frames.h"
 
@@ -19,15 +20,13 @@ namespace {
 
 constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json", "alfred", "tractor"};
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
 ProgressStyle parse_progress(const RunTexts& texts) {
   if (texts.quiet) return ProgressStyle::kQuiet;
   if (texts.progress.empty()) return ProgressStyle::kAuto;
   const std::vector<std::string> names(std::begin(kProgressNames), std::end(kProgressNames));
   const auto found = std::find(names.begin(), names.end(), texts.progress);
   if (found == names.end())
-    fail("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
+    fail_arguments("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
   return static_cast<ProgressStyle>(found - names.begin());
 }
 
@@ -70,7 +69,7 @@ void interpret_run(const RunTexts& texts, RunOptions& options) {
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))
-      fail("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
+      fail_arguments("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
     options.overrides.push_back({"render.memory", texts.memory});
   }
   if (!texts.frames.empty()) {

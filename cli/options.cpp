@@ -212,8 +212,6 @@ const std::map<std::string, Command>& command_names() {
   return names;
 }
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
 CurveBasis parse_basis(const std::string& text) {
   const std::vector<std::string> names(std::begin(EnumNames<CurveBasis>::names),
                                        std::end(EnumNames<CurveBasis>::names));

@@ -9,6 +9,7 @@
 
 #include "base/nearest_name.h"
 #include "base/value_readers.h"
+#include "cli/command_line.h"
 #include "cli/number_checks.h"
 #include "world/frames.h"
 

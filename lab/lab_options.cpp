@@ -24,23 +24,21 @@ namespace {
 constexpr const char* kExperimentNames[] = {"bounces",   "bounds",   "growth", "lod",
                                             "residency", "samplers", "shading"};
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
 Experiment parse_experiment(const std::string& text) {
   const std::vector<std::string> names(std::begin(kExperimentNames), std::end(kExperimentNames));
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) fail("unknown experiment " + quote(text) + suggest(text, names));
+  if (found == names.end()) fail_arguments("unknown experiment " + quote(text) + suggest(text, names));
   return static_cast<Experiment>(found - names.begin());
 }
 
 void check_parts(Experiment experiment, const std::vector<std::string>& parts) {
   if (!parts.empty() && experiment != Experiment::kLod && experiment != Experiment::kShading)
-    fail("--parts: only lod and shading have parts");
+    fail_arguments("--parts: only lod and shading have parts");
   std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
   if (experiment == Experiment::kShading) known.assign(std::begin(kShadingParts), std::end(kShadingParts));
   for (const std::string& part : parts) {
     if (std::find(known.begin(), known.end(), part) == known.end())
-      fail("--parts: unknown part " + quote(part) + suggest(part, known));
+      fail_arguments("--parts: unknown part " + quote(part) + suggest(part, known));
   }
 }
 
@@ -48,7 +46,7 @@ void check_models(const std::vector<std::string>& models) {
   const std::vector<std::string>& known = fibre_model_names();
   for (const std::string& model : models) {
     if (std::find(known.begin(), known.end(), model) == known.end())
-      fail("--models: unknown fibre model " + quote(model) + suggest(model, known));
+      fail_arguments("--models: unknown fibre model " + quote(model) + suggest(model, known));
   }
 }
 
