@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kPiFloat = std::numbers::pi_v<float>;
 constexpr int kPoints = 8;
 constexpr size_t kClumps = 2500;
 
@@ -22,7 +22,7 @@ V3f smooth_noise(const V3f& p, float frequency, uint64_t seed) {
     for (uint64_t axis = 0; axis < 3; ++axis) {
       const auto random = [&](uint64_t i) { return signed_float(hash64(seed, wave, axis, i)); };
       const V3f direction(random(0), random(1), random(2));
-      sum[static_cast<int>(axis)] += std::sin(frequency * 2.5f * direction.dot(p) + kPi * random(3));
+      sum[static_cast<int>(axis)] += std::sin(frequency * 2.5f * direction.dot(p) + kPiFloat * random(3));
     }
   }
   return sum / 3.0f;
@@ -47,7 +47,7 @@ V3f surface_normal(const V3f& direction) {
 
 V3f random_direction(uint64_t seed, uint64_t index, uint64_t use) {
   const float z = signed_float(hash64(seed, index, use, 0));
-  const float phi = 2 * kPi * unit_float(hash64(seed, index, use, 1));
+  const float phi = 2 * kPiFloat * unit_float(hash64(seed, index, use, 1));
   const float s = std::sqrt(std::max(0.0f, 1 - z * z));
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
@@ -118,8 +118,8 @@ SkinMesh make_skin(float motion) {
   for (int key = 0; key < mesh.motion_keys; ++key) {
     for (uint32_t i = 0; i <= kRows; ++i) {
       for (uint32_t j = 0; j < kColumns; ++j) {
-        const float theta = kPi * static_cast<float>(i) / kRows;
-        const float phi = 2 * kPi * static_cast<float>(j) / kColumns;
+        const float theta = kPiFloat * static_cast<float>(i) / kRows;
+        const float phi = 2 * kPiFloat * static_cast<float>(j) / kColumns;
         const V3f d(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
         const V3f p = surface_point(d) + V3f(motion * static_cast<float>(key), 0, 0);
         const V3f n = surface_normal(d);

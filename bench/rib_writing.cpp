@@ -49,3 +49,5 @@ BENCHMARK_CAPTURE(write_rib, ascii, RibEncoding::kAscii);
 
 }  // namespace
 }  // namespace pelage
+
+BENCHMARK_MAIN();

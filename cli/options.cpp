@@ -216,7 +216,7 @@ CurveBasis parse_basis(const std::string& text) {
   const std::vector<std::string> names(std::begin(EnumNames<CurveBasis>::names),
                                        std::end(EnumNames<CurveBasis>::names));
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) fail("--basis " + quote(text) + " is not known" + suggest(text, names));
+  if (found == names.end()) fail_arguments("--basis " + quote(text) + " is not known" + suggest(text, names));
   return static_cast<CurveBasis>(found - names.begin());
 }
 
