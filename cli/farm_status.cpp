@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-nlohmann::ordered_json json_of(const FarmTask& task, const TaskState& state) {
+nlohmann::ordered_json task_json(const FarmTask& task, const TaskState& state) {
   nlohmann::ordered_json json{
       {"name", task.name}, {"state", stage_name(state.stage)}, {"starts", state.starts}};
   if (state.starts > 0) {
@@ -35,7 +35,7 @@ void print_shot_json(const ShotState& shot) {
     json["counts"][std::string(stage_name(static_cast<TaskStage>(s)))] =
         shot.count(static_cast<TaskStage>(s));
   for (size_t i = 0; i < shot.tasks.size(); ++i)
-    json["tasks"].push_back(json_of(shot.plan.tasks[i], shot.tasks[i]));
+    json["tasks"].push_back(task_json(shot.plan.tasks[i], shot.tasks[i]));
   std::cout << json.dump(2) << "\n";
 }
 

@@ -138,7 +138,8 @@ class Page(unittest.TestCase):
         """The file is well-formed XML, with its own colours."""
         page = page_of(bar_plot([HOSTILE], [[1]]), line_plot([[0, 1], [1, 2]]))
         page = page.replace("</body>", """<script>
-          URL.createObjectURL = blob => { blob.text().then(text => document.title = text); return 'about:blank'; };
+          window.Blob = class { constructor(parts) { document.title = parts.join(''); } };
+          URL.createObjectURL = () => 'about:blank';
           HTMLAnchorElement.prototype.click = function() { document.body.dataset.name = this.download; };
           document.querySelectorAll('button')[1].click();
         </script></body>""")
