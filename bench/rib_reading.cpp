@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost of reading strands from a binary RIB file. The yardstick is reading the bytes of the file in one
 // piece.
+#include "rib/scene/rib_reading.h"
+
 #include <bit>
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "bench/yardstick.h"
-#include "rib/scene/rib_reading.h"
 
 namespace pelage {
 namespace {

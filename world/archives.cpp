@@ -13,8 +13,8 @@
 #include "procedurals/skin/posed_character_skin.h"
 #include "rib/scene/rib_reading.h"
 #include "world/archive_coats.h"
-#include "world/frame_characters.h"
 #include "world/compose.h"
+#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
