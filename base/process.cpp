@@ -100,12 +100,16 @@ class NoPipeSignal {
 /// The environment of this process with changes, see ProcessSetup::environment.
 std::vector<std::string> changed_environment(const std::vector<std::string>& changes) {
   const auto name_of = [](std::string_view variable) { return variable.substr(0, variable.find('=')); };
+  const auto concerns = [&](std::string_view change, std::string_view variable) {
+    const std::string_view name = name_of(change);
+    return name.ends_with('*') ? variable.starts_with(name.substr(0, name.size() - 1))
+                               : name == name_of(variable);
+  };
   std::vector<std::string> result;
   for (char** variable = environ; *variable; ++variable) {
-    const bool changes_it = std::any_of(changes.begin(), changes.end(), [&](const std::string& change) {
-      return name_of(change) == name_of(*variable);
-    });
-    if (!changes_it) result.emplace_back(*variable);
+    if (std::none_of(changes.begin(), changes.end(),
+                     [&](const std::string& change) { return concerns(change, *variable); }))
+      result.emplace_back(*variable);
   }
   for (const std::string& change : changes) {
     if (change.find('=') != std::string::npos) result.push_back(change);

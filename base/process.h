@@ -31,7 +31,8 @@ struct ProcessSetup {
   ProcessStream input = ProcessStream::kNone;
   ProcessStream output = ProcessStream::kPiped, errors = ProcessStream::kPiped;
   std::filesystem::path log = {};  ///< unless empty: the file for output and errors, in place of the above
-  /// What differs from the environment of this process: "NAME=value" sets a variable, "NAME" removes it.
+  /// What differs from the environment of this process: "NAME=value" sets a variable, "NAME" removes it,
+  /// "PREFIX*" removes all whose names start with the prefix.
   std::vector<std::string> environment = {};
 };
 

@@ -2,6 +2,7 @@
 #include "cli/lab_program.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <ostream>
 
 #include "base/error.h"
@@ -25,6 +26,14 @@ bool asks_for_help(const std::vector<std::string>& arguments) {
                      [](const std::string& argument) { return argument == "--help" || argument == "-h"; });
 }
 
+/// The build links the laboratory after this program.
+void warn_if_stale(const std::filesystem::path& lab) {
+  std::error_code unknown;
+  const auto built = std::filesystem::last_write_time(lab, unknown);
+  if (unknown || built >= std::filesystem::last_write_time(current_program(), unknown) || unknown) return;
+  std::fprintf(stderr, "pelage: warning: %s is older than pelage; `./dev build` builds both\n", lab.c_str());
+}
+
 }  // namespace
 
 std::span<const LabCommand> lab_commands() { return kCommands; }
@@ -36,6 +45,7 @@ bool is_lab_command(const std::vector<std::string>& arguments) {
 int start_lab(const std::filesystem::path& lab, const std::vector<std::string>& arguments,
               std::ostream& out) {
   if (find_program(lab.string())) {
+    warn_if_stale(lab);
     std::vector<std::string> command{lab.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     become_program(command);

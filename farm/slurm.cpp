@@ -22,16 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a program of Slurm. Variables by which a user can filter or format what it prints do not reach it.
+/// Runs a program of Slurm. Variables by which a user can filter jobs or format lists do not reach it.
 ProcessResult run_slurm(const std::string& program, std::vector<std::string> arguments) {
   const auto path = find_program(program);
   if (!path) throw Error(ErrorKind::kFailed, program + " is not in PATH: this machine has no Slurm");
   arguments.insert(arguments.begin(), path->string());
   ProcessSetup setup{std::move(arguments)};
-  for (const char* name :
-       {"ACCOUNT", "ARRAY", "CLUSTERS", "FEDERATION", "FORMAT", "FORMAT2", "JSON", "LICENSES", "LOCAL",
-        "NAMES", "PARTITION", "PRIORITY", "QOS", "SIBLING", "SORT", "STATES", "USERS", "YAML"})
-    setup.environment.push_back(std::string("SQUEUE_") + name);
+  setup.environment = {"SQUEUE_*", "SCANCEL_*"};
   ProcessLimits limits;
   limits.seconds = 60;
   return run_process(setup, limits);

@@ -137,6 +137,8 @@ TEST(ProcessTest, ChangesVariablesOfTheEnvironment) {
   setup.environment = {"PELAGE_TEST_CHANGED=after", "PELAGE_TEST_REMOVED", "PELAGE_TEST_NEW=a=b c"};
   EXPECT_EQ(run_process(setup).output, "kept after gone a=b c\n");
   EXPECT_EQ(run_process(shell("echo $PELAGE_TEST_CHANGED")).output, "before\n");
+  setup.environment = {"PELAGE_TEST_*", "PELAGE_TEST_NEW=*"};
+  EXPECT_EQ(run_process(setup).output, "gone *\n");
 }
 
 TEST(ProcessTest, IsStoppedAtItsTimeLimit) {

@@ -144,10 +144,12 @@ class FarmSubmit(ProgramTest):
         self.farm("submit", "scene.yaml", *SHOT)
         (self.bin / "queue").write_text("101 1 PENDING\n")
         self.fake("squeue", '#!/bin/sh\n[ -n "$SQUEUE_STATES$SQUEUE_FORMAT" ] || cat "$FAKE/queue"\n')
-        os.environ.update(SQUEUE_STATES="RUNNING", SQUEUE_FORMAT="%i")
-        self.addCleanup(os.environ.pop, "SQUEUE_STATES")
-        self.addCleanup(os.environ.pop, "SQUEUE_FORMAT")
+        self.fake("scancel", '#!/bin/sh\n[ -n "$SCANCEL_STATE" ] || : > "$FAKE/queue"\n')
+        for name in "SQUEUE_STATES", "SQUEUE_FORMAT", "SCANCEL_STATE":
+            os.environ[name] = "RUNNING"
+            self.addCleanup(os.environ.pop, name)
         self.assertIn("1 job cancelled", self.farm("cancel", "farm")[0])
+        self.assertEqual((self.bin / "queue").read_text(), "")
 
     # $STUBBORN: a job that cannot be cancelled, and makes the whole command fail before it does anything.
     STUBBORN = """#!/bin/sh

@@ -58,6 +58,13 @@ class LabProgram(ProgramTest):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(60), -signal.SIGTERM)
 
+    def test_a_laboratory_of_an_older_build_is_named(self):
+        self.program(STAND_IN)
+        lab = pathlib.Path(self.PELAGE).with_name("pelage-lab")
+        os.utime(lab, (1, 1))
+        err = self.run_pelage("measure", "bounds", stdin=subprocess.DEVNULL, code=42)[1]
+        self.assertIn(f"{lab} is older than pelage", err)
+
     def test_a_missing_laboratory_is_one_line(self):
         self.program()
         out, err = self.run_pelage("measure", "bounds", "scene.yaml", code=1)

@@ -125,7 +125,7 @@ void RecordedResults::write() const {
   std::ofstream file(kFile);
   file << "# The results of stages whose results are stored in files: tests/support/recorded_results.h. "
           "Written by\n"
-          "# the tests when PELAGE_RECORD_RESULTS is set. Do not edit.\n";
+          "# the tests when PELAGE_RECORD_RESULTS is set, one test at a time (ctest -j1). Do not edit.\n";
   for (const auto& [stage, entry] : entries_) {
     file << "\n" << stage << ": " << entry.versions << "\n";
     file << "  exact: " << entry.exact << " " << entry.machine << "\n";
