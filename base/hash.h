@@ -34,8 +34,9 @@ constexpr uint64_t hash64(Words... words) {
 
 /// Returns a 64-bit constant for one use of random numbers: the FNV-1a hash of its name, computed at compile
 /// time. Pass this constant to hash64() together with the id of a strand. Different uses, such as
-/// random_use("clump") and random_use("curl"), then get independent random numbers for the same strand. A name
-/// stays as it is once it has been used, even if its word has left the code: another name changes all pixels.
+/// random_use("clump") and random_use("curl"), then get independent random numbers for the same strand. A
+/// name stays as it is once it has been used, even if its word has left the code: another name changes all
+/// pixels.
 consteval uint64_t random_use(std::string_view name) {
   uint64_t h = 0xcbf29ce484222325ull;
   for (char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
