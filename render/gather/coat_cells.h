@@ -12,9 +12,9 @@
 
 namespace pelage {
 
-/// Returns the least level at which 2^level parts of `length` are no longer than `spacing`, but at most 16.
+/// Returns the least level at which 2^level parts of `length` are no longer than `spacing`, but at most 20.
 inline int level_of(float length, float spacing) {
-  constexpr int kMaxLevel = 16;
+  constexpr int kMaxLevel = 20;
   if (!(length > spacing)) return 0;
   return std::min(static_cast<int>(std::ceil(std::log2(length / spacing))), kMaxLevel);
 }

@@ -25,6 +25,7 @@ float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
 
 GatherPointKeys::GatherPointKeys(const FrameScene& scene, uint32_t samples)
     : camera_(scene.camera),
+      view_(scene.camera.lod_view()),
       params_(scene.render.gather),
       cells_(scene.camera, scene.fur, static_cast<float>(samples)) {}
 
@@ -73,7 +74,8 @@ GatherPointKey GatherPointKeys::on_skin(const Hit& hit, const SkinMesh& triangle
     const uint64_t gather_point = hash64(random_use("knot of a skin"), hit.part, face);
     return {gather_point, gather_point, zone};
   }
-  // Size in the picture of the face's two parameter lines, from the triangle that was hit.
+  // The face's size in the picture along its two parameters, as it is at the hit: one end of a large face may
+  // be behind the camera.
   const V2f* at = triangle.vertex_uv.data();
   const V2f e1 = at[1] - at[0], e2 = at[2] - at[0];
   const V3f& corner = triangle.position(0);
@@ -82,11 +84,12 @@ GatherPointKey GatherPointKeys::on_skin(const Hit& hit, const SkinMesh& triangle
   int levels[2] = {0, 0};
   if (std::abs(area) > 0) {
     const V3f along[2] = {(d1 * e2.y - d2 * e1.y) / area, (d2 * e1.x - d1 * e2.x) / area};
-    const float size = std::sqrt(std::abs(area));
-    const auto from = camera_.project(corner, 0);
+    const V3f point = corner + hit.u * d1 + hit.v * d2;
+    const auto from = camera_.project(point, 0);
     for (int i = 0; i < 2; ++i) {
-      const auto to = camera_.project(corner + size * along[i], 0);
-      levels[i] = level_of(distance(from, to) / size, params_.skin_spacing);
+      const float step = 1 / (along[i].length() * pixels_per_unit(view_, point));  // about a pixel
+      const auto to = camera_.project(point + step * along[i], 0);
+      levels[i] = level_of(distance(from, to) / step, params_.skin_spacing);
     }
   }
   const V2f place = skin_parameters(triangle, hit);

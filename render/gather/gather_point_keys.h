@@ -62,11 +62,11 @@ struct GatherPointKey {
 ///
 /// A strand has 2^level + 1 gather points, at equal distances of its parameter. The level follows from the
 /// length of the strand in the picture when the shutter opens. Each face of a skin has a grid of gather
-/// points; the levels along its two parameters follow from the size of the face in the picture. A hit is
-/// assigned at random to one of the gather points around it, with its weight in linear interpolation as
-/// probability. On average, light is therefore interpolated linearly between gather points. If a strand is so
-/// thin that fewer than four samples would see one of its gather points, its hits are assigned to the cells
-/// of its coat instead.
+/// points; the levels along its two parameters follow from the size of the face in the picture, as it would
+/// be if all of the face were as far from the camera as the hit. A hit is assigned at random to one of the
+/// gather points around it, with its weight in linear interpolation as probability. On average, light is
+/// therefore interpolated linearly between gather points. If a strand is so thin that fewer than four samples
+/// would see one of its gather points, its hits are assigned to the cells of its coat instead.
 ///
 /// Gather points on strands that grow in the same cube of the skin (CoatCells::patch()) are in one patch if
 /// they lie in the same eighth of their strands. On strands with more than 17 gather points, each pair of
@@ -95,6 +95,7 @@ class GatherPointKeys {
   GatherPointKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
 
   const Camera& camera_;
+  const LodView view_;
   const GatherParams& params_;
   CoatCells cells_;
 };

@@ -20,15 +20,16 @@ class IndirectPaths::ArrivingLight {
   ArrivingLight(const ReflectionCache* cache, Scratch& scratch, IndirectClamp& clamp)
       : cache_(cache), arriving_(scratch.arriving), counts_(scratch.reflections), clamp_(clamp) {}
 
-  /// Ends the path at its second surface if the cache knows what this surface reflects.
-  bool arrive(const PathState& path, const HitGeometry& hit_geometry) {
-    if (!cache_ || path.vertex > 1) return true;
+  /// Ends the path at its second surface, after shadow rays, if the cache knows what else this surface
+  /// reflects.
+  Arrival arrive(const PathState& path, const HitGeometry& hit_geometry) {
+    if (!cache_ || path.vertex > 1) return Arrival::kGoOn;
     const ReflectionSlots::Radiance reflected = cache_->find(path.ray, path.hit, hit_geometry);
     ++counts_.lookups;
-    if (!reflected) return true;
+    if (!reflected) return Arrival::kGoOn;
     ++counts_.found;
     for (size_t light = 0; light < arriving_.size(); ++light) add(path, light, reflected[light]);
-    return false;
+    return Arrival::kShadowRays;
   }
 
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {

@@ -29,6 +29,13 @@ struct PathState {
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
 };
 
+/// What a path does at a vertex that it has reached.
+enum class Arrival {
+  kGoOn,        ///< finds the light there, and continues
+  kShadowRays,  ///< traces shadow rays to lights, and ends
+  kEnd,         ///< ends
+};
+
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At the first
 /// vertex, a path traces up to `render.light_samples` shadow rays to lights (DirectLight), and at every later
 /// vertex up to twice as many. At each vertex, it samples one direction from the lobes for the ray to the
@@ -45,7 +52,7 @@ struct PathState {
 /// It may have a third:
 ///   arrive(path, hit_geometry)
 ///       Receives each vertex after the first, before its light is found. `hit_geometry`: the geometry that
-///       was hit. Returns whether the path continues from there.
+///       was hit. Returns what the path does there, an Arrival.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
@@ -63,7 +70,7 @@ class PathWalk {
   /// Follows a path from its first vertex to its end. `first`: position and scattering of the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
-    if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
+    if (scatter(first, path, true, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
   /// Follows a path along `ray` from the first vertex to its end. The caller has sampled the direction of
   /// `ray` at the first vertex, and has divided `path.first` and `path.weight` by its density. Does not
@@ -96,11 +103,12 @@ class PathWalk {
     bool goes_on = true;
     while (goes_on) {
       ++path.vertex;
-      if constexpr (requires { sink.arrive(path, scratch.thread.hit_geometry); }) {
-        if (!sink.arrive(path, scratch.thread.hit_geometry)) return;
-      }
-      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry), path, lights,
-                        scratch, sink);
+      Arrival arrival = Arrival::kGoOn;
+      if constexpr (requires { sink.arrive(path, scratch.thread.hit_geometry); })
+        arrival = sink.arrive(path, scratch.thread.hit_geometry);
+      if (arrival == Arrival::kEnd) return;
+      const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry);
+      goes_on = scatter(point, path, arrival == Arrival::kGoOn, lights, scratch, sink);
     }
   }
   /// Returns the count of shadow rays at the current vertex: after the first, twice as many. Such a vertex
@@ -111,13 +119,13 @@ class PathWalk {
   }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
-  /// Finds the light at the current vertex and traces the ray to the next vertex. Returns false where the
-  /// path ends.
-  bool scatter(const ScatterPoint& point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
-               Sink& sink) const {
+  /// Finds the light at the current vertex and, if the path continues, traces the ray to the next vertex.
+  /// Returns false where the path ends.
+  bool scatter(const ScatterPoint& point, PathState& path, bool continues, DirectLightScratch& lights,
+               SampleScratch& scratch, Sink& sink) const {
     direct_.begin(point, lights);
     if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
-    return sample_lobes(point, path, lights, scratch, sink);
+    return continues && sample_lobes(point, path, lights, scratch, sink);
   }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;

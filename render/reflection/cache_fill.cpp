@@ -16,7 +16,7 @@ namespace {
 
 /// How many of its own paths the estimate of the larger cell around a cell replaces. A cell with few paths is
 /// noisy, and one with many needs no help.
-constexpr float kBlend = 8;
+constexpr float kBlend = 4;
 /// The part of `render.time_limit` after which cells must do with the paths that they have.
 constexpr double kTimeShare = 0.25;
 

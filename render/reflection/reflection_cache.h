@@ -9,9 +9,10 @@
 
 namespace pelage {
 
-/// Means of the radiance that surfaces reflect towards indirect rays, by cell (see CellKeys) and light. The
-/// cache is made from whole paths of the whole picture before the first tile is rendered, and does not change
-/// afterwards. So a lookup never waits, and its result depends only on the scene.
+/// Means of the radiance that surfaces reflect towards indirect rays, by cell (see CellKeys) and light,
+/// without the light that shadow rays from these surfaces find (see ReflectionPaths). The cache is made from
+/// whole paths of the whole picture before the first tile is rendered, and does not change afterwards. So a
+/// lookup never waits, and its result depends only on the scene.
 ///
 /// Thread safety: const members may be called from any thread.
 class ReflectionCache {

@@ -9,20 +9,21 @@
 
 namespace pelage {
 
-/// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light.
+/// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light, except the
+/// light that shadow rays from this surface find.
 class ReflectionPaths::Recorder {
  public:
   Recorder(const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
       : keys_(keys), range_(range), reflected_(reflected) {}
 
-  bool arrive(const PathState& path, const HitGeometry& hit_geometry) {
-    if (path.vertex > 1) return true;
+  Arrival arrive(const PathState& path, const HitGeometry& hit_geometry) {
+    if (path.vertex > 1) return Arrival::kGoOn;
     cells_ = keys_.of(path.ray, path.hit, hit_geometry);
     if (cells_ && !range_.contains(*cells_)) cells_.reset();
-    return cells_.has_value();
+    return cells_ ? Arrival::kGoOn : Arrival::kEnd;
   }
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
-    if (through > 0)
+    if (path.vertex > 1 && through > 0)
       reflected_[from.light] += path.throughput * from.value.total() * from.arriving * (through * factor);
   }
   void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {

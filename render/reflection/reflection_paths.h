@@ -14,9 +14,10 @@ namespace pelage {
 
 /// Traces the paths that fill the reflection cache. A path starts at a camera sample of its own and is traced
 /// as `path` does, to its end. It gives one estimate of the radiance that leaves its second surface towards
-/// the first one, by light, to each cell that contains this surface. The estimates are unbiased, so the mean
-/// of a cell keeps energy. Thread safety: const members may be called from any thread, each with its own
-/// scratch.
+/// the first one, by light, to each cell that contains this surface; without the light that shadow rays from
+/// this surface find, because each path that ends in a cell traces such rays itself. The estimates are
+/// unbiased, so the mean of a cell keeps energy. Thread safety: const members may be called from any thread,
+/// each with its own scratch.
 class ReflectionPaths {
  public:
   /// Keeps references to its arguments, except `options`.

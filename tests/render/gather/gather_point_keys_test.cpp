@@ -142,5 +142,22 @@ TEST(GatherPointKeys, AFaceOfASkinHasAGridOfGatherPoints) {
   EXPECT_LT(found.size(), 110u);
 }
 
+TEST(GatherPointKeys, AFaceThatReachesBehindTheCameraHasGatherPointsWhereItIsSeen) {
+  const RenderScene scene = key_scene::make({});
+  const GatherPointKeys keys(scene, kSamples);
+  HitGeometry floor = skin_triangle();
+  floor.triangle.positions = {-400, -1, 400, 1200, -1, 400, -400, -1, -1200};
+  std::set<uint64_t> found;
+  Hit hit;
+  hit.kind = HitKind::kSkin;
+  for (uint64_t i = 0; i < 500; ++i) {
+    hit.u = 0.25f + 0.00025f * unit_float(hash64(i, 1));  // from x = 0 to 0.4, about 10 pixels
+    hit.v = 0.25f;
+    found.insert(key_of(keys, hit, floor, {unit_float(hash64(i, 2)), 0}).gather_point);
+  }
+  EXPECT_GE(found.size(), 5u);
+  EXPECT_LE(found.size(), 14u);
+}
+
 }  // namespace
 }  // namespace pelage
