@@ -35,6 +35,14 @@ struct Descriptor {
   }
 };
 
+bool has_contents(const std::filesystem::path& path, std::string_view expected) {
+  try {
+    return read_file(path) == expected;
+  } catch (const Error&) {
+    return false;  // removed, or replaced by something that is no file
+  }
+}
+
 }  // namespace
 
 ContentHash file_hash(const std::filesystem::path& path) {
@@ -154,11 +162,39 @@ void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
 
 void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() {
   // fsync also covers what a library wrote through temporary_path(), because it is the same file.
   if (::fsync(descriptor_) != 0 && errno != EINVAL) fail_write(named_, reason());
+}
+
+void AtomicFile::commit() {
+  sync();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(named_, reason());
   temporary_.clear();
+}
+
+bool AtomicFile::commit_over(std::string_view expected) {
+  sync();  // before the comparison, because it takes milliseconds
+  if (!has_contents(path_, expected)) return false;
+  const auto exchange = [this] {
+    return ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0;
+  };
+  if (!exchange()) {
+    if (errno == ENOENT) return false;  // removed meanwhile
+    if (errno != EINVAL && errno != ENOSYS) fail_write(named_, reason());
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(named_, reason());
+    temporary_.clear();
+    return true;
+  }
+  if (has_contents(temporary_, expected)) return true;  // the destructor removes the old file
+  // Another program saved the file between the comparison and the exchange. Its file returns to the path. If
+  // the program has saved once more, the exchange took that file, and the next one brings it back.
+  struct stat own {
+  }, taken{};
+  if (!exchange() || ::fstat(descriptor_, &own) != 0) fail_write(named_, reason());
+  if (::stat(temporary_.c_str(), &taken) == 0 && taken.st_ino != own.st_ino && !exchange())
+    fail_write(named_, reason());
+  return false;
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -52,8 +52,14 @@ class AtomicFile {
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   /// Moves the complete file to its path.
   void commit();
+  /// Moves the complete file to its path if the file there has the contents `expected`. Returns false, and
+  /// keeps the file there, if another program has changed it, even while this function runs. (Where the file
+  /// system cannot exchange two files, a change in the microseconds before the move is not noticed.)
+  bool commit_over(std::string_view expected);
 
  private:
+  void sync();
+
   std::filesystem::path named_;  ///< as given to the constructor, for messages
   std::filesystem::path path_;   ///< the file to replace
   std::filesystem::path temporary_;

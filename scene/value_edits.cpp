@@ -234,9 +234,8 @@ void write_values(const std::filesystem::path& path, const std::vector<Override>
   const std::string changed = with_values(text, path.string(), edits);
   AtomicFile file(path);
   file.write(changed);
-  if (read_file(path) != text)
+  if (!file.commit_over(text))
     throw Error(ErrorKind::kFailed, path.string() + ": changed at the same time; try again");
-  file.commit();
 }
 
 }  // namespace pelage

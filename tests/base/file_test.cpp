@@ -200,6 +200,25 @@ TEST(AtomicFile, AppearsWholeAtCommitAndReplacesWhatWasThere) {
   EXPECT_EQ(entries(path.parent_path()), 1u);
 }
 
+TEST(AtomicFile, ReplacesOnlyWhatWasExpected) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.txt";
+  const auto replaced = [&] {
+    AtomicFile file(path);
+    file.write("new");
+    return file.commit_over("old");
+  };
+  EXPECT_FALSE(replaced()) << "there is no file";
+  EXPECT_FALSE(std::filesystem::exists(path));
+  write_file(path, "old");
+  EXPECT_TRUE(replaced());
+  EXPECT_EQ(read_file(path), "new");
+  write_file(path, "another");
+  EXPECT_FALSE(replaced());
+  EXPECT_EQ(read_file(path), "another");
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
   const TemporaryFolder folder;
   {

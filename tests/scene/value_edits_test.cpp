@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/value_edits.h"
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +136,31 @@ TEST(ValueEdits, AFileIsWrittenWholeOrNotAtAll) {
   write_values(link, {{"lights.sky.intensity", "9"}, {"lights.keys", "1"}}, {kIntensity});
   EXPECT_EQ(read_file(path), "include: more.yaml\nlights: {key: {intensity: 2.5}, sky: {intensity: 1}}\n");
   EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
+TEST(ValueEdits, ASaveAtTheSameTimeIsNotLost) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.yaml", saved = folder.path() / "saved.yaml";
+  const std::string text = "lights: {key: {intensity: 3}}\n";
+  int refused = 0;
+  for (int i = 0; i < 30; ++i) {
+    write_file(path, text);
+    std::atomic<bool> begins{false};
+    std::thread editor([&] {
+      write_file(saved, text + "# saved\n");
+      begins = true;
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+      std::filesystem::rename(saved, path);
+    });
+    while (!begins) std::this_thread::yield();
+    const std::string error = error_of([&] { write_values(path, {}, {kIntensity}); });
+    editor.join();
+    EXPECT_NE(read_file(path).find("# saved"), std::string::npos) << i << error;
+    if (error.empty()) continue;
+    EXPECT_NE(error.find("changed at the same time"), std::string::npos) << error;
+    ++refused;
+  }
+  RecordProperty("refused", refused);
 }
 
 }  // namespace
