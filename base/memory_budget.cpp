@@ -5,13 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 
 namespace pelage {
 
 std::string memory_text(int64_t bytes) {
   const auto size = static_cast<double>(bytes);
-  if (bytes < int64_t{1} << 20) return fmt::format("{:.0f} KiB", std::max(1.0, size / (1 << 10)));
+  if (bytes < 10 << 10) return counted(bytes, "byte");
+  if (bytes < int64_t{1} << 20) return fmt::format("{:.0f} KiB", size / (1 << 10));
   if (bytes < int64_t{1} << 30) return fmt::format("{:.1f} MiB", size / (1 << 20));
   return fmt::format("{:.1f} GiB", size / (1 << 30));
 }

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// Returns a size for a message: "640 KiB", "22.7 MiB" or "1.3 GiB".
+/// Returns a size for a message: "1 byte", "640 KiB", "22.7 MiB" or "1.3 GiB".
 std::string memory_text(int64_t bytes);
 
 /// Describes the memory in use that `render.memory` includes, by tag: "30.0 MiB are in use (skins 20.0 MiB,

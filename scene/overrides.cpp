@@ -95,6 +95,26 @@ Value* find_entry(Value& block, const std::string& name, bool leads_on, const So
   return &block.entries().back().value;
 }
 
+// Removes the item of a list that find_item() has found.
+void remove_item(Value& list, const Value& found) {
+  std::erase_if(list.items(), [&](const Value& item) {
+    return &item == &found || (!only_key(item).empty() && &item.entries()[0].value == &found);
+  });
+}
+
+// Removes the entry of a name. Returns whether this is settled: if there is neither such an entry nor a
+// similar one, the schema decides whether the name may have no value.
+bool remove_entry(Value& block, const std::string& name, const SourcePosition& where, Problems& problems) {
+  if (!block.is_map()) return false;
+  const auto is_named = [&](const Value::Entry& entry) { return entry.key == name; };
+  if (std::erase_if(block.entries(), is_named) > 0) return true;
+  std::vector<std::string> names;
+  for (const Value::Entry& entry : block.entries()) names.push_back(entry.key);
+  const std::string near = did_you_mean(name, names);
+  if (!near.empty()) problems.add(where, "no " + quote(name) + " to remove" + near);
+  return !near.empty();
+}
+
 }  // namespace
 
 void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems,
@@ -105,24 +125,28 @@ void apply_override(const Override& override, Value& document, DocumentLimits& l
     problems.add(where, "expected names separated by single dots");
     return;
   }
+  std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);
+  if (!value) return;
+  value->set_position(where);
+  // `--set key=` is more likely a mistake than a wish to remove the key.
+  const bool is_removal = value->is_null() && !override.value.empty();
   std::optional<RenamedPath> path;
   if (renamed) path.emplace(document, *renamed);
   Value* target = &document;
   for (size_t i = 0; i < names.size() && target; ++i) {
     Value& block = *target;
+    const bool removes = is_removal && i + 1 == names.size();
     if (block.is_list()) {
       target = find_item(block, names[i], where, problems);
+      if (removes && target) return remove_item(block, *target);
       continue;
     }
     const std::string name = path ? path->present_name(block, names[i], where) : names[i];
+    if (removes && remove_entry(block, name, where, problems)) return;
     target = find_entry(block, name, i + 1 < names.size(), where, problems);
     if (path && target) path->enter(block, name, *target);
   }
-  if (!target) return;
-  std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);
-  if (!value) return;
-  value->set_position(where);
-  *target = std::move(*value);
+  if (target) *target = std::move(*value);
 }
 
 }  // namespace pelage

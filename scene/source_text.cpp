@@ -65,24 +65,21 @@ SourcePosition SourceText::position(int line, int byte_column) {
   return {file_, line + 1, counted_characters_ + 1};
 }
 
-bool SourceText::check(Problems& problems) {
+std::optional<Problem> SourceText::mistake() {
   int brackets = 0;  // open ones; counting those in comments and quotes too is harmless at this size
   for (size_t i = 0; i < text_.size();) {
     const std::string_view rest = std::string_view(text_).substr(i);
     const size_t length = sequence_length(rest);
     if (text_[i] == '[' || text_[i] == '{') ++brackets;
     if (text_[i] == ']' || text_[i] == '}') brackets = std::max(brackets - 1, 0);
-    const char* mistake = length == 0                  ? "the file is not UTF-8 text"
+    const char* mistake = length == 0                  ? "the text is not UTF-8"
                           : is_forbidden_control(rest) ? "a scene must not contain control characters"
                           : brackets > kMaxBrackets    ? "too many open brackets"
                                                        : nullptr;
-    if (mistake) {
-      problems.add(position_of_byte(i), mistake);
-      return false;
-    }
+    if (mistake) return Problem{position_of_byte(i), mistake};
     i += length;
   }
-  return true;
+  return {};
 }
 
 SourcePosition SourceText::position_of_byte(size_t byte) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +30,10 @@ class SourceText {
   /// Returns the position of a byte, given its offset in the whole text.
   SourcePosition position_of_byte(size_t byte);
 
-  /// Returns whether the text can be parsed safely; if not, adds a problem. The text must be UTF-8, without
-  /// control characters, and with at most 256 brackets open at once, because yaml-cpp allocates 256 bytes for
-  /// each open bracket before it reports anything.
-  bool check(Problems& problems);
+  /// Returns why the text cannot be parsed safely; empty if it can. The text must be UTF-8, without control
+  /// characters, and with at most 256 brackets open at once, because yaml-cpp allocates 256 bytes for each
+  /// open bracket before it reports anything.
+  std::optional<Problem> mistake();
 
  private:
   std::string text_;

@@ -231,7 +231,10 @@ std::optional<Value> read_yaml(std::string text, const std::string& file,
   }
   limits.bytes -= text.size();
   SourceText source(std::move(text), file);
-  if (!source.check(problems)) return std::nullopt;
+  if (const std::optional<Problem> mistake = source.mistake()) {
+    problems.add(fixed.value_or(mistake->position), mistake->message);
+    return std::nullopt;
+  }
 
   ValueBuilder builder(source, fixed, limits, problems);
   try {

@@ -168,10 +168,12 @@ const Schema<SceneDescription>& SceneDescription::schema() {
         "or a list of files, reads other scene files first; maps are merged, and the including file "
         "overrides the included ones. A number or vector marked \"or keys\" may be `{keys: {1: a, 48: b}}`, "
         "which interpolates linearly between frames. A field is a number, a colour or one of the blocks "
-        "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value; a list "
-        "item is addressed by its index from 0, or, if the item is a map with a single key, by that key. A "
-        "key marked \"formerly\" also accepts its old name, with a warning; giving both names in one file or "
-        "override is an error.");
+        "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value, and "
+        "`--set a.b.c=null` removes it; a list item is addressed by its index from 0, or, if the item is a "
+        "map "
+        "with a single key, by that key. A key marked \"formerly\" also accepts its old name, with a "
+        "warning; "
+        "giving both names in one file or override is an error.");
     s.set_example(R"(pelage: 1
 include: [animals.yaml, lights.yaml]
 frames: 1-48

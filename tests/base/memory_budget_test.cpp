@@ -8,8 +8,9 @@
 namespace pelage {
 namespace {
 
-TEST(MemoryBudget, TextNeverSaysNothing) {
-  EXPECT_EQ(memory_text(1), "1 KiB");
+TEST(MemoryBudget, TextIsNotRoundedToAnotherSize) {
+  EXPECT_EQ(memory_text(1), "1 byte");
+  EXPECT_EQ(memory_text(1500), "1500 bytes");
   EXPECT_EQ(memory_text(640 << 10), "640 KiB");
   EXPECT_EQ(memory_text((22 << 20) + (7 << 20) / 10), "22.7 MiB");
   EXPECT_EQ(memory_text(int64_t{3} << 29), "1.5 GiB");

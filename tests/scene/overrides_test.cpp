@@ -62,7 +62,6 @@ TEST(Overrides, ReplaceAndAdd) {
   EXPECT_EQ(with_one("rendr={a: 1}", "rendr"), "{a: 1}");
   EXPECT_EQ(with_one("rendr=5", "rendr"), "5");
   EXPECT_EQ(with_one("lens.f_stop=4", "lens"), "{f_stop: 4}");
-  EXPECT_EQ(with_one("render=null", "render"), "null");
   EXPECT_EQ(with_one("render=", "render"), "null");
   EXPECT_EQ(with_one("render='5'", "render"), "\"5\"");
 }
@@ -75,6 +74,23 @@ TEST(Overrides, ReachItemsOfLists) {
   EXPECT_EQ(
       with_one("operators.fine.amount=9", "operators"),
       "[{length: {value: 1}}, {clump: {name: coarse, amount: 1}}, {clump: {name: fine, amount: 9}}, 5]");
+}
+
+TEST(Overrides, NullRemoves) {
+  EXPECT_EQ(with_one("render.samples=null", "render"), "{}");
+  EXPECT_EQ(with_one("render=null", "render"), "");
+  EXPECT_EQ(with_one("render=~", "render"), "");
+  EXPECT_EQ(with_one("operators.fine=null", "operators"),
+            "[{length: {value: 1}}, {clump: {name: coarse, amount: 1}}, 5]");
+  EXPECT_EQ(with_one("operators.3=null", "operators"),
+            "[{length: {value: 1}}, {clump: {name: coarse, amount: 1}}, {clump: {name: fine, amount: 2}}]");
+  EXPECT_EQ(with_one("operators.0.length.value=null", "operators").substr(0, 14), "[{length: {}},");
+  // The schema knows whether a missing key may have no value.
+  EXPECT_EQ(with_one("render.lens=null", "render"), "{samples: 64, lens: null}");
+  EXPECT_EQ(with({"render.sampels=null"}).problems,
+            Lines{"--set render.sampels: no 'sampels' to remove; did you mean 'samples'?"});
+  EXPECT_EQ(with({"operators.7=null"}).problems,
+            Lines{"--set operators.7: no item 7 in a list of 4 (the first is 0)"});
 }
 
 TEST(Overrides, LaterOnesWin) {

@@ -95,8 +95,8 @@ TEST(Yaml, SyntaxMistakes) {
   EXPECT_EQ(problems("- a\n- b\n"),
             Lines{"s.yaml:1:1: expected a scene, which is a block of keys, got a list of 2"});
   EXPECT_EQ(problems("a: 1\n---\nb: 2\n"), Lines{"s.yaml:2:1: text after the end of the document"});
-  EXPECT_EQ(problems("a: \xff\n"), Lines{"s.yaml:1:4: the file is not UTF-8 text"});
-  EXPECT_EQ(problems("a: \xed\xa0\x80\n"), Lines{"s.yaml:1:4: the file is not UTF-8 text"});
+  EXPECT_EQ(problems("a: \xff\n"), Lines{"s.yaml:1:4: the text is not UTF-8"});
+  EXPECT_EQ(problems("a: \xed\xa0\x80\n"), Lines{"s.yaml:1:4: the text is not UTF-8"});
   EXPECT_EQ(problems(std::string("a: 1\nb: \0\n", 10)),
             Lines{"s.yaml:2:4: a scene must not contain control characters"});
 }

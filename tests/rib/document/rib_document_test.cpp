@@ -154,6 +154,12 @@ TEST_F(RibDocumentTest, MistakesHavePositions) {
   EXPECT_NE(failure("Option \"pelage\" \"string image\" [\"{widht: 5}\"] WorldBegin WorldEnd")
                 .find("shot.rib:1:32: unknown key 'widht'"),
             std::string::npos);
+  for (const char* block : {"{a: \xff}", "{a: \x01}", "{a: [}", "{a: \xff\n"})
+    EXPECT_EQ(
+        failure("Option \"pelage\" \"string image\" [\"" + std::string(block) + "\"] WorldBegin WorldEnd")
+            .find("shot.rib:1:32: "),
+        0u)
+        << block;
 }
 
 TEST_F(RibDocumentTest, ScenesGetMaterialsForTheSurfacesOfTheirArchives) {
