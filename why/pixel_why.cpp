@@ -90,10 +90,9 @@ MaterialWhy explain_material(const SceneDescription& scene, const RenderScene& f
 }
 
 /// Settings with which the film of a frame has all layers, and each pixel all its samples.
-FrameSettings with_all_layers(const RenderScene& scene) {
-  FrameSettings settings{scene.image, scene.render};
+FrameSettings with_all_layers(FrameSettings settings) {
   settings.image.light_layers = settings.image.event_layers = true;
-  settings.image.noise_layers = scene.render.integrator == Integrator::kPath;
+  settings.image.noise_layers = settings.render.integrator == Integrator::kPath;
   settings.render.adaptive.reset();
   settings.render.time_limit = 0;
   return settings;
@@ -102,8 +101,11 @@ FrameSettings with_all_layers(const RenderScene& scene) {
 SkinWhy explain_skin(const RenderScene& scene, const SeenSurface& surface) {
   const SkinPart& part = scene.skins[surface.hit.part];
   const SkinMesh& triangle = surface.hit_geometry.triangle;
-  SkinWhy why{part.name, triangle.faces[0], skin_parameters(triangle, surface.hit), V2f(0)};
-  if (part.rest) why.uv = part.rest->topology().texture_coordinates(why.face, why.place.x, why.place.y);
+  SkinWhy why{part.name, triangle.faces[0], skin_parameters(triangle, surface.hit), V2f(0), V3f(0)};
+  if (part.rest) {
+    why.uv = part.rest->topology().texture_coordinates(why.face, why.place.x, why.place.y);
+    why.rest = part.rest->evaluate(why.face, why.place.x, why.place.y).position;
+  }
   return why;
 }
 
@@ -146,7 +148,7 @@ PixelWhy explain_pixel(const ExplainedFrame& frame, int x, int y, const Job& job
   why.y = y;
   why.is_adaptive = scene.render.adaptive.has_value();
   FrameOptions options;
-  options.settings = with_all_layers(scene);
+  options.settings = with_all_layers(frame.settings.value_or(FrameSettings{scene.image, scene.render}));
   options.region = PixelBox{x, y, x + 1, y + 1};
   const Growth before(frame.geometry.get());
   const FrameResult result = render(frame.world, job, options, frame.geometry, frame.kept);

@@ -52,6 +52,7 @@ struct SkinWhy {
   uint32_t face = 0;
   V2f place{0};  ///< parameters in the face
   V2f uv{0};     ///< texture coordinates
+  V3f rest{0};   ///< rest position, where ramps and noise along x, y and z are evaluated
 };
 
 /// Work that the samples of a pixel took.
@@ -86,17 +87,19 @@ struct PixelWhy {
 struct ExplainedFrame {
   const SceneDescription& scene;
   Assets& assets;
-  const World& world;                        ///< composed from `scene` and `assets`
-  std::unique_ptr<FrameGeometry>& geometry;  ///< of the world; made if null
-  KeptFur* kept = nullptr;                   ///< see render_frame()
+  const World& world;                          ///< composed from `scene` and `assets`
+  std::unique_ptr<FrameGeometry>& geometry;    ///< of the world; made if null
+  KeptFur* kept = nullptr;                     ///< see render_frame()
+  std::optional<FrameSettings> settings = {};  ///< of the picture; empty: those of the world
 };
 
 /// Throws Error (kArguments) if a pixel is outside the picture.
 void check_pixel(const ImageParams& image, int x, int y);
 
-/// Renders a pixel again and explains it. Its radiance is that of a render of the whole picture, except with
-/// adaptive sampling and time limits, which are ignored. Throws Error: kArguments if the pixel is outside the
-/// picture, kStopped when the job is stopped, and the errors of render().
+/// Renders a pixel again with `render.samples` samples and explains it. Its radiance is that of a render of
+/// the whole picture, except with adaptive sampling and time limits, which are ignored. Throws Error:
+/// kArguments if the pixel is outside the picture, kStopped when the job is stopped, and the errors of
+/// render().
 PixelWhy explain_pixel(const ExplainedFrame& frame, int x, int y, const Job& job);
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "geom/rest_position.h"
 #include "geom/strand_point.h"
 #include "groom/groom.h"
 #include "procedurals/fur.h"
@@ -135,6 +136,8 @@ StrandWhy explain_strand(const SceneDescription& scene, Assets& assets, const Re
   why.across = hit.v;
   if (seen.has_roots()) why.root = seen.root(0);
   why.root_uv = seen.root_uv(0);
+  why.rest = part.rest && why.root ? part.rest->evaluate(why.root->face, why.root->u, why.root->v).position
+                                   : rest_position(seen, 0).value_or(seen.point(seen.first_point(0)));
   why.steps = explain_steps(scene, assets, strand, job);
   why.steps.push_back({"stored", strand_places(seen)});
   why.lod = explain_lod(strand);

@@ -56,6 +56,7 @@ struct StrandWhy {
   float across = 0;                 ///< where it is hit: h in [-1, 1]
   std::optional<RootAddress> root;  ///< empty if it grows on no skin
   V2f root_uv{0};                   ///< texture coordinates of the root
+  V3f rest{0};  ///< rest position of the root, where ramps and noise along x, y and z are evaluated
   std::vector<StepWhy> steps;
   std::optional<LodWhy> lod;  ///< empty if the level of detail of the coat is not reduced
   /// The centre line in the picture when the camera sample was taken, in pixels, from root to tip. Points

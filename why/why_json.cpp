@@ -53,10 +53,17 @@ json lod_json(const LodWhy& lod) {
 }
 
 json strand_json(const StrandWhy& strand) {
-  json result{{"coat", strand.coat},     {"id", strand.id},         {"segment", strand.segment},
-              {"along", strand.along},   {"across", strand.across}, {"root_uv", list(strand.root_uv)},
-              {"root", json()},          {"lod", json()},           {"steps", json::array()},
-              {"outline", json::array()}};
+  json result{{"coat", strand.coat},
+              {"id", strand.id},
+              {"segment", strand.segment},
+              {"along", strand.along},
+              {"across", strand.across},
+              {"root_uv", list(strand.root_uv)},
+              {"root", json()},
+              {"lod", json()},
+              {"steps", json::array()},
+              {"outline", json::array()},
+              {"rest", list(strand.rest)}};
   if (strand.root)
     result["root"] = {{"face", strand.root->face}, {"u", strand.root->u}, {"v", strand.root->v}};
   if (strand.lod) result["lod"] = lod_json(*strand.lod);
@@ -123,7 +130,8 @@ std::string why_json(const PixelWhy& why) {
     result["skin"] = {{"name", why.skin->name},
                       {"face", why.skin->face},
                       {"place", list(why.skin->place)},
-                      {"uv", list(why.skin->uv)}};
+                      {"uv", list(why.skin->uv)},
+                      {"rest", list(why.skin->rest)}};
   }
   if (why.material) result["material"] = material_json(*why.material);
   const CostWhy& cost = why.cost;

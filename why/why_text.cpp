@@ -82,6 +82,7 @@ std::string strand_text(const StrandWhy& strand) {
     text +=
         fmt::format("  root: face {}, u {:.4g}, v {:.4g}; texture coordinates {:.4g} {:.4g}\n",
                     strand.root->face, strand.root->u, strand.root->v, strand.root_uv.x, strand.root_uv.y);
+  text += fmt::format("  rest position of the root: {}\n", text_of(strand.rest));
   text += fmt::format("  hit at {:.1f} % of the strand from the root (segment {}), {:+.2f} radii across\n",
                       100 * strand.along, strand.segment, strand.across);
   return text + steps_text(strand) + lod_text(strand);
@@ -131,9 +132,10 @@ std::string why_text(const PixelWhy& why) {
   if (why.is_adaptive) text += "  sampling is adaptive: the picture may take fewer samples here\n";
   if (why.strand) text += strand_text(*why.strand);
   if (why.skin) {
-    text += fmt::format("skin {}\n  face {}, u {:.4g}, v {:.4g}; texture coordinates {:.4g} {:.4g}\n",
-                        why.skin->name, why.skin->face, why.skin->place.x, why.skin->place.y, why.skin->uv.x,
-                        why.skin->uv.y);
+    text += fmt::format(
+        "skin {}\n  face {}, u {:.4g}, v {:.4g}; texture coordinates {:.4g} {:.4g}\n  rest position: {}\n",
+        why.skin->name, why.skin->face, why.skin->place.x, why.skin->place.y, why.skin->uv.x, why.skin->uv.y,
+        text_of(why.skin->rest));
   }
   if (!why.strand && !why.skin) text += "nothing: the camera sees neither fur nor skin here, only lights\n";
   if (why.material) text += material_text(*why.material);

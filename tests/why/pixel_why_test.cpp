@@ -133,6 +133,11 @@ TEST(PixelWhy, ExplainsTheGrowthOfAStrand) {
   EXPECT_EQ(strand.steps[5].after.color, strand.steps[4].after.color);
   EXPECT_NE(strand.steps[6].after.color, strand.steps[5].after.color);
   EXPECT_NEAR(strand.steps[1].after.length, 2 * 0.4f, 1e-4f);
+  // The character is twice as large as its skin at rest, and moved by (.., 1, 0).
+  const V3f& root = strand.steps[0].after.position[0];
+  EXPECT_NEAR(root.y, 2 * strand.rest.y + 1, 1e-5f);
+  EXPECT_NEAR(root.z, 2 * strand.rest.z, 1e-5f);
+  EXPECT_NE(why_text(why).find("rest position of the root: "), std::string::npos);
   // Only rounding is left for the last step.
   const StrandPlaces &last = strand.places(), &grown = strand.steps[6].after;
   for (size_t place = 0; place < 3; ++place) {

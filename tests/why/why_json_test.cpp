@@ -36,11 +36,16 @@ TEST(WhyJson, SaysTheSameAsTheExplanation) {
       EXPECT_EQ(parsed["skin"]["name"], why.skin->name);
       EXPECT_TRUE(parsed["strand"].is_null() && parsed["chunk"].is_null());
       EXPECT_EQ(parsed["material"]["model"], "lambert");
+      const float face =
+          std::max({std::abs(why.skin->rest.x), std::abs(why.skin->rest.y), std::abs(why.skin->rest.z)});
+      EXPECT_LT(face, 0.501f) << "the cube at rest";
+      EXPECT_EQ(parsed["skin"]["rest"][2], why.skin->rest.z);
     } else if (why.strand) {
       ++strands;
       const json& strand = parsed["strand"];
       EXPECT_EQ(strand["id"], why.strand->id);
       EXPECT_EQ(strand["coat"], "walker.coat");
+      EXPECT_EQ(strand["rest"], json({why.strand->rest.x, why.strand->rest.y, why.strand->rest.z}));
       EXPECT_EQ(strand["steps"].size(), why.strand->steps.size());
       EXPECT_EQ(strand["outline"].size(), why.strand->outline.size());
       for (int c = 0; c < 3; ++c) {
