@@ -42,6 +42,8 @@ class TighteningWatch final : public FrameWatch {
   }
   std::optional<PixelBox> region() const override { return watch_.region(); }
   uint32_t region_version() const override { return watch_.region_version(); }
+  uint32_t pause_version() const override { return watch_.pause_version(); }
+  void paused(const Film& film, const PassState& state) override { watch_.paused(film, state); }
 
  private:
   FrameGeometry& geometry_;

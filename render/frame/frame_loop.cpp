@@ -63,6 +63,7 @@ std::vector<Tile> FrameLoop::tiles(const std::optional<PixelBox>& region) const 
 PassEnd FrameLoop::pass(const Pass& pass) {
   std::vector<Tile> tiles = this->tiles(pass.region);
   if (pass.scattered) tiles = scattered(tiles);
+  weigh(tiles, pass.goal);
   const TaskFrame frame{film_,
                         left_,
                         top_,
@@ -82,6 +83,31 @@ PassEnd FrameLoop::pass(const Pass& pass) {
   }
 }
 
+void FrameLoop::weigh(const std::vector<Tile>& tiles, const SampleGoal& goal) {
+  weights_.assign(tile_costs_.size(), 1);
+  std::vector<double> costs = weights_;
+  double samples = 0, seconds = 0;
+  for (const Tile& tile : tiles) {
+    const size_t index = tile_index(tile.x0, tile.y0);
+    const TileCost& cost = tile_costs_[index];
+    if (!(cost.samples > 0 && cost.seconds > 0)) return;
+    costs[index] = cost.seconds / cost.samples;
+    double missing = 0;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const uint32_t wanted =
+            goal(static_cast<size_t>(y) * static_cast<size_t>(film_.width()) + static_cast<size_t>(x));
+        missing += wanted - std::min(wanted, film_.samples(x, y));
+      }
+    }
+    samples += missing;
+    seconds += missing * costs[index];
+  }
+  if (!(seconds > 0)) return;
+  for (double& cost : costs) cost *= samples / seconds;
+  weights_ = std::move(costs);
+}
+
 bool FrameLoop::trace(const TileTask& task, int worker) {
   if (task.must_stop()) return false;
   const ScratchPool::Lease lease(scratch_, worker);
@@ -94,7 +120,7 @@ bool FrameLoop::trace(const TileTask& task, int worker) {
 
 void FrameLoop::advance(const Tile& tile, uint64_t samples) {
   tile_costs_[tile_index(tile.x0, tile.y0)].samples += static_cast<double>(samples);
-  job_.progress.advance(static_cast<double>(samples));
+  job_.progress.advance(static_cast<double>(samples) * weights_[tile_index(tile.x0, tile.y0)]);
   double none = 0;
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
 }

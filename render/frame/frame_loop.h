@@ -80,6 +80,9 @@ class FrameLoop {
   };
   /// Returns the tiles of a pass, in the order of a Hilbert curve.
   std::vector<Tile> tiles(const std::optional<PixelBox>& region) const;
+  /// Sets the weights of the tiles of a pass: the costs of their samples in earlier passes, relative to the
+  /// mean over all samples of the pass. All are 1 while one of the costs is unknown.
+  void weigh(const std::vector<Tile>& tiles, const SampleGoal& goal);
   /// Returns false if the tile is not finished.
   bool trace(const TileTask& task, int worker);
   void advance(const Tile& tile, uint64_t samples);
@@ -93,6 +96,8 @@ class FrameLoop {
   const Stopwatch& clock_;
   FrameSaver* const saver_;
   std::vector<TileCost> tile_costs_;  // by tile of the film, row by row
+  std::vector<double> weights_;  // of samples in the progress, by tile of the film; so that the progress is
+                                 // even although fur costs more than background
   ScratchPool scratch_;
   std::atomic<double> first_tile_s_{0};
 };

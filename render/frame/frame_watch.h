@@ -13,7 +13,7 @@ struct PassState {
   uint32_t samples = 0;     ///< min sample count over the traced pixels
   double mean_samples = 0;  ///< mean sample count over the traced pixels
   int grid = 1;   ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
-                  ///< samples
+                  ///< samples; 0: no pass over the whole picture has ended
   PixelBox full;  ///< all pixels of this box have samples, whatever `grid` is; may be empty
 };
 
@@ -36,6 +36,11 @@ class FrameWatch {
   virtual std::optional<PixelBox> region() const = 0;
   /// Returns a number that changes with the region; 0 if there has never been a region.
   virtual uint32_t region_version() const = 0;
+  /// Returns a number that changes when the watch asks for a pause. The pass under way then ends early,
+  /// paused() is called, and the pass continues. May be called by any thread, at any time.
+  virtual uint32_t pause_version() const { return 0; }
+  /// Called like passed(), in a pause.
+  virtual void paused(const Film&, const PassState&) {}
 };
 
 }  // namespace pelage

@@ -54,18 +54,20 @@ SamplePasses::SamplePasses(FrameLoop& loop, const RenderParams& params, const Jo
       clock_(clock),
       watch_(watch),
       in_passes_(fits || params.time_limit > 0 || (watch && !loop.links_pixels())),
-      interrupts_(watch ? [this] { return watch_->region_version() != region_seen_; }
-                        : std::function<bool()>()) {}
+      interrupts_(watch ? [this] {
+        return watch_->region_version() != region_seen_ || watch_->pause_version() != pause_seen_;
+      } : std::function<bool()>()) {}
+
+PassState SamplePasses::state() const { return {loop_.min_samples(), loop_.mean_samples(), grid_, full_}; }
 
 void SamplePasses::tell_watch() {
-  if (watch_) watch_->passed(loop_.film(), {loop_.min_samples(), loop_.mean_samples(), grid_, full_});
+  if (watch_) watch_->passed(loop_.film(), state());
 }
 
 PassEnd SamplePasses::refine_region(const SampleGoal& goal, double deadline_s) {
   region_seen_ = watch_->region_version();
   const bool known = !params_.adaptive && params_.time_limit <= 0;  // whether all counts are known
   if (grid_ == 0 || (known && region_seen_ == region_refined_)) return PassEnd::kDone;
-  region_refined_ = region_seen_;
   std::optional<PixelBox> region = watch_->region();
   if (region) region = intersection(*region, loop_.traced());
   if (!region || region->is_empty()) return PassEnd::kDone;
@@ -86,6 +88,7 @@ PassEnd SamplePasses::refine_region(const SampleGoal& goal, double deadline_s) {
     given = next;
     step = limited(kWatched_s / sample_s, 1, given);
   }
+  if (end == PassEnd::kDone) region_refined_ = region_seen_;
   return end;
 }
 
@@ -98,6 +101,9 @@ PassEnd SamplePasses::pass(const SampleGoal& goal, bool scattered, double deadli
       if (end == PassEnd::kDone || end == PassEnd::kOutOfTime) tell_watch();
     }
     if (end != PassEnd::kInterrupted) return end;
+    if (watch_->pause_version() == pause_seen_) continue;
+    pause_seen_ = watch_->pause_version();
+    watch_->paused(loop_.film(), state());
   }
 }
 

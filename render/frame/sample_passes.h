@@ -47,11 +47,12 @@ class SamplePasses {
 
  private:
   /// Makes one pass and tells the watch, unless the pass is cancelled. `grid`: see PassState. A new region of
-  /// the watch interrupts the pass, which then continues after refine_region().
+  /// the watch interrupts the pass, which then continues after refine_region(). So does a pause.
   PassEnd pass(const SampleGoal& goal, bool scattered, double deadline_s, int grid = 1);
   /// Takes the samples of the region that the watch has chosen: all of them, or those of the pass with this
   /// goal.
   PassEnd refine_region(const SampleGoal& goal, double deadline_s);
+  PassState state() const;
   void tell_watch();
   /// Takes the first sample of the pixels on grids of 8, 4 and 2 pixels.
   PassEnd coarse_passes();
@@ -72,9 +73,11 @@ class SamplePasses {
   const Stopwatch& clock_;
   FrameWatch* const watch_;
   const bool in_passes_;                    // whether a stage has several passes
-  const std::function<bool()> interrupts_;  // whether the watch has a new region; empty without a watch
+  const std::function<bool()> interrupts_;  // whether the watch has a new region or asks for a pause; empty
+                                            // without a watch
   uint32_t region_seen_ = 0;     // version of the watch's region that the current pass takes into account
-  uint32_t region_refined_ = 0;  // version of the region that refine_region() has begun with
+  uint32_t region_refined_ = 0;  // version of the region that refine_region() has finished
+  uint32_t pause_seen_ = 0;      // version of the watch's last pause
   int grid_ = 0;                 // PassState::grid of the last pass over the whole picture; 0: none so far
   PixelBox full_;                // see PassState
   bool cut_ = false;             // counts were scaled down to fit the time limit

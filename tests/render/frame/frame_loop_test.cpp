@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,48 @@ TEST(FrameLoop, ThePictureDoesNotDependOnPassesAndThreads) {
       }
     }
   }
+}
+
+/// The samples of the left half take 20 us more.
+class SlowLeft final : public RandomSamples {
+ public:
+  void trace(int x, int y, uint32_t sample, SampleScratch& scratch) const override {
+    RandomSamples::trace(x, y, sample, scratch);
+    const Stopwatch clock;
+    while (x < kWidth / 2 && clock.seconds() < 20e-6) {
+    }
+  }
+};
+
+/// Adds up the progress of tiles, one after the other.
+class TileProgress final : public Progress {
+ public:
+  void begin(std::string_view, double) override {}
+  void advance(double amount) override { amounts.push_back(amount); }
+  void end() override {}
+  bool cancelled() const override { return false; }
+  std::vector<double> amounts;
+};
+
+TEST(FrameLoop, ProgressCountsTilesByWhatTheirSamplesCost) {
+  MemoryLedger ledger;
+  Film film(kWidth, kHeight, {}, ledger);
+  const Workers workers(1);
+  TileProgress progress;
+  const Stopwatch clock;
+  const SlowLeft samples;
+  FrameLoop loop(samples, {workers, ledger, progress}, film, frame_window(kWidth, kHeight, {}, {}), clock);
+  const auto pass = [&](uint32_t count) {
+    progress.amounts.clear();
+    loop.pass({[=](size_t) { return count; }, {}});
+    return std::accumulate(progress.amounts.begin(), progress.amounts.end(), 0.0);
+  };
+  EXPECT_EQ(pass(1), kWidth * kHeight);
+  EXPECT_EQ(*std::max_element(progress.amounts.begin(), progress.amounts.end()), 256);
+  EXPECT_NEAR(pass(3), 2 * kWidth * kHeight, 1e-6) << "the same sum";
+  // The two whole tiles on the left count more than the others, whatever else the machine does.
+  std::sort(progress.amounts.begin(), progress.amounts.end());
+  EXPECT_GT(progress.amounts.back(), 2 * 256);
 }
 
 TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {

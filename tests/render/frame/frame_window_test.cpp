@@ -153,6 +153,46 @@ TEST(FrameWatch, SeesCoarsePicturesFirstAndChangesNoPixel) {
   }
 }
 
+/// Asks for a pause whenever it was paused, and while a region is refined.
+struct PausingWatch final : FrameWatch {
+  void passed(const Film&, const PassState& state) override {
+    EXPECT_GE(state.mean_samples, mean);
+    mean = state.mean_samples;
+  }
+  std::optional<PixelBox> region() const override { return PixelBox{3, 20, 15, 30}; }
+  uint32_t region_version() const override { return 1; }
+  uint32_t pause_version() const override { return version; }
+  void paused(const Film& film, const PassState& state) override {
+    EXPECT_GE(state.mean_samples, mean);
+    for (int y = 0; state.grid > 0 && y < film.height(); y += state.grid) {
+      for (int x = 0; x < film.width(); x += state.grid) EXPECT_GT(film.samples(x, y), 0u);
+    }
+    if (version < 30) ++version;
+  }
+  std::atomic<uint32_t> version{1};
+  double mean = 0;
+};
+
+TEST(FrameWatch, APauseChangesNoPixel) {
+  for (const Integrator integrator : {Integrator::kPath, Integrator::kGather}) {
+    for (const bool splatted : {false, true}) {
+      FurScene scene;
+      scene.render.integrator = integrator;
+      scene.render.samples = 40;
+      scene.image.noise_layers = false;
+      if (splatted) scene.image.filter_samples = FilterSamples::kSplatted;
+      const FrameResult alone = rendered(scene, {});
+      PausingWatch watch;
+      FrameOptions options;
+      options.watch = &watch;
+      const FrameResult watched = rendered(scene, options, 3);
+      EXPECT_GT(watch.version, 3u);
+      EXPECT_EQ(watched.mean_samples, 40);
+      expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
+    }
+  }
+}
+
 TEST(FrameWatch, SeesThePassesOfGatherAndChangesNoPixel) {
   FurScene scene;
   scene.render.integrator = Integrator::kGather;
