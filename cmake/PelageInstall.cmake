@@ -30,5 +30,5 @@ configure_package_config_file(cmake/pelageConfig.cmake.in ${CMAKE_BINARY_DIR}/pe
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/pelageConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(EXPORT pelage NAMESPACE pelage:: FILE pelageTargets.cmake DESTINATION ${package_dir})
 install(FILES ${CMAKE_BINARY_DIR}/pelageConfig.cmake ${CMAKE_BINARY_DIR}/pelageConfigVersion.cmake
-              cmake/PelageDependencies.cmake cmake/FindOpenSubdivCPU.cmake cmake/FindXXHash.cmake cmake/FindHTTPLib.cmake
+              cmake/PelageDependencies.cmake cmake/FindOpenSubdivCPU.cmake cmake/FindXXHash.cmake
         DESTINATION ${package_dir})

@@ -56,6 +56,22 @@ class LiveRenderer::Watch final : public FrameWatch {
       : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
 
   void passed(const Film& film, const PassState& pass) override {
+    publish(film, pass);
+    answer_questions(film, pass);
+    // What follows is better seen in the picture itself.
+    if (is_preview_ && pass.grid <= 2) renderer_.preview_is_over_ = true;
+  }
+  std::optional<PixelBox> region() const override { return renderer_.state_.control().region(); }
+  uint32_t region_version() const override { return renderer_.state_.control().region_version(); }
+  uint32_t pause_version() const override { return renderer_.state_.why().asked(); }
+  void paused(const Film& film, const PassState& pass) override {
+    if (!renderer_.state_.why().is_waiting()) return;
+    if (pass.grid > 0) publish(film, pass);  // so that the page shows what is explained
+    answer_questions(film, pass);
+  }
+
+ private:
+  void publish(const Film& film, const PassState& pass) {
     ViewState& state = renderer_.state_;
     std::vector<std::string> names;
     Picture picture;
@@ -74,14 +90,22 @@ class LiveRenderer::Watch final : public FrameWatch {
       status.layers = std::move(names);
       status.strands_regrown = regrown;
     });
-    if (!is_preview_) renderer_.answer_questions();
-    // What follows is better seen in the picture itself.
-    if (is_preview_ && pass.grid <= 2) renderer_.preview_is_over_ = true;
   }
-  std::optional<PixelBox> region() const override { return renderer_.state_.control().region(); }
-  uint32_t region_version() const override { return renderer_.state_.control().region_version(); }
 
- private:
+  /// Explains the picture on the screen: pixels have as many samples as so far. Until the first pass of
+  /// `gather` ends, the picture is the preview.
+  void answer_questions(const Film& film, const PassState& pass) {
+    const RenderScene& scene = renderer_.loaded_->world->scene;
+    const bool gathers = scene.render.integrator == Integrator::kGather;
+    renderer_.answer_questions([&](int x, int y) {
+      if (is_preview_ || (gathers && pass.grid == 0)) return preview_settings(scene);
+      FrameSettings settings{scene.image, scene.render};
+      const bool inside = x >= 0 && y >= 0 && x < film.width() && y < film.height();
+      if (inside) settings.render.samples = static_cast<int>(std::max(film.samples(x, y), 1u));
+      return settings;
+    });
+  }
+
   LiveRenderer& renderer_;
   const SceneEdit& edit_;
   const bool is_preview_;
@@ -290,11 +314,12 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
   });
 }
 
-void LiveRenderer::answer_questions() {
-  state_.why().answer([this](int x, int y) -> std::optional<CommandAnswer> {
+void LiveRenderer::answer_questions(const std::function<FrameSettings(int x, int y)>& settings) {
+  state_.why().answer([&](int x, int y) -> std::optional<CommandAnswer> {
     if (!loaded_->edit || !loaded_->geometry) return no_picture_answer();
-    const ExplainedFrame frame{loaded_->edit->scene, loaded_->assets, *loaded_->world, loaded_->geometry,
-                               &loaded_->fur};
+    ExplainedFrame frame{loaded_->edit->scene, loaded_->assets, *loaded_->world, loaded_->geometry,
+                         &loaded_->fur};
+    if (settings) frame.settings = settings(x, y);
     return why_answer(frame, x, y, workers_, ledger_, [this] { return must_end(); });
   });
 }

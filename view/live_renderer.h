@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -17,6 +18,7 @@
 namespace pelage {
 
 struct FrameOptions;
+struct FrameSettings;
 
 /// Renders the last edit of a scene on a thread of its own, and publishes its pictures on a ViewState. Keeps
 /// the world and its geometry between edits, and makes only those parts again that depend on the change. An
@@ -46,8 +48,9 @@ class LiveRenderer {
   void render_loaded(const SceneEdit& edit, const Job& job);
   FrameResult trace(const Job& job, const FrameOptions& options);
   void finish(const SceneEdit& edit, FrameResult result);
-  /// Answers what clients ask about the pixels of the picture.
-  void answer_questions();
+  /// Answers what clients ask about the pixels of the picture. `settings`: with which a pixel was rendered;
+  /// empty for those of the scene.
+  void answer_questions(const std::function<FrameSettings(int x, int y)>& settings = {});
   /// Takes the chunks out of the geometry, so that a new geometry can use them.
   void release_geometry();
   int64_t strands_regrown() const;

@@ -22,6 +22,7 @@ CommandAnswer PixelQueries::ask(int x, int y, const std::function<bool()>& gives
     const std::lock_guard lock(mutex_);
     if (questions_.size() >= kMaxQuestions) return busy_reply("too many questions at once; ask again");
     questions_.push_back(question);
+    ++count_;
   }
   {
     const std::lock_guard lock(asked_mutex_);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -23,6 +25,8 @@ class PixelQueries {
 
   /// Returns whether a question has no answer yet.
   bool is_waiting() const;
+  /// Returns how many questions have been asked.
+  uint32_t asked() const { return count_; }
   /// Answers all questions with `explain(x, y)`. Once it returns nothing, the rest is left for the next call.
   void answer(const std::function<std::optional<CommandAnswer>(int x, int y)>& explain);
   /// Calls `asked` after each question. An empty function ends these calls.
@@ -37,7 +41,8 @@ class PixelQueries {
   mutable std::mutex mutex_;  // guards questions_ and their members
   std::condition_variable answered_;
   std::vector<std::shared_ptr<Question>> questions_;  // without an answer
-  std::mutex asked_mutex_;                            // guards asked_; locked while it is called
+  std::atomic<uint32_t> count_{0};
+  std::mutex asked_mutex_;  // guards asked_; locked while it is called
   std::function<void()> asked_;
 };
 

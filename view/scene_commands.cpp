@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@
 #include "base/vector.h"
 #include "scene/value_edits.h"
 #include "view/scene_edit.h"
+#include "world/frames.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -127,6 +129,7 @@ struct Context {
   const std::filesystem::path& scene;
   const std::vector<Override>& overrides;
   ViewState& state;
+  std::mutex& writing;
   bool may_write;
 };
 
@@ -152,7 +155,10 @@ json values_answer(const Context& context, const std::string& action, const std:
   const bool writes = action == "write";
   if (writes && !context.may_write)
     throw Error(ErrorKind::kArguments, "with --bind, pages cannot write the scene file; copy the text");
-  if (writes) write_values(context.scene, context.overrides, edits);
+  if (writes) {
+    const std::lock_guard lock(context.writing);
+    write_values(context.scene, context.overrides, edits);
+  }
   return {{"text", values_text(edits)}, {"written", writes}};
 }
 
@@ -242,12 +248,31 @@ json run_region(const Context& context, const std::string& body) {
   return json::object();
 }
 
+json run_frame(const Context& context, const std::string& body) {
+  const std::array<std::string, 1> keys{"frame"};
+  const json request = read_object(body, keys);
+  const json frame = request.value("frame", json());
+  if (frame.is_null()) {
+    context.state.control().set_frame({});
+    return json::object();
+  }
+  const std::vector<int> frames = context.state.status().frames;
+  const auto found = std::find(frames.begin(), frames.end(), frame);
+  if (found == frames.end())
+    throw Error(ErrorKind::kArguments,
+                "frame: expected one of the scene's frames: " + print_frames({frames}));
+  context.state.control().set_frame(*found);
+  return json::object();
+}
+
 struct Command {
   std::string_view name;
   json (*run)(const Context&, const std::string& body);
 };
-constexpr Command kCommands[] = {
-    {"camera.json", run_camera}, {"lights.json", run_lights}, {"region.json", run_region}};
+constexpr Command kCommands[] = {{"camera.json", run_camera},
+                                 {"frame.json", run_frame},
+                                 {"lights.json", run_lights},
+                                 {"region.json", run_region}};
 
 const Command* find_command(std::string_view name) {
   const auto* found = std::find_if(std::begin(kCommands), std::end(kCommands),
@@ -270,7 +295,7 @@ CommandAnswer SceneCommands::run(std::string_view name, const std::string& body)
   const Command* command = find_command(name);
   if (!command) return refuse(404, "there is no such command");
   try {
-    return {200, text_of(command->run({scene_, overrides_, state_, may_write_}, body))};
+    return {200, text_of(command->run({scene_, overrides_, state_, writing_, may_write_}, body))};
   } catch (const Error& error) {
     return refuse(error.kind() == ErrorKind::kArguments ? 400 : 409, error.what());
   } catch (const std::exception& error) {

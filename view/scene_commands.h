@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ class SceneCommands {
                 bool may_write = true)
       : scene_(std::move(scene)), overrides_(std::move(overrides)), state_(state), may_write_(may_write) {}
 
-  /// Returns whether there is a command of a name: "camera.json", "lights.json", "region.json".
+  /// Returns whether there is a command of a name: "camera.json", "frame.json", "lights.json",
+  /// "region.json".
   static bool exists(std::string_view name);
   /// Runs a command. `body`: its parameters, as JSON. Mistakes become answers with an error.
   CommandAnswer run(std::string_view name, const std::string& body) const;
@@ -31,6 +33,7 @@ class SceneCommands {
   const std::vector<Override> overrides_;
   ViewState& state_;
   const bool may_write_;
+  mutable std::mutex writing_;  // one command at a time writes the file
 };
 
 }  // namespace pelage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/scene_follower.h"
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kQuiet{30}, kLongestUnrest{300};
 /// Finds changes that inotify does not report: of network drives, and of folders that were replaced.
 constexpr milliseconds kPoll{1000};
+constexpr size_t kMaxFrames = 10'000;  // that clients can choose
 
 SceneParts camera_parts(const SceneParts& parts) {
   SceneParts camera;
@@ -52,7 +54,7 @@ SceneFollower::~SceneFollower() {
   thread_.join();
 }
 
-SceneDescription SceneFollower::load_with_camera() {
+SceneDescription SceneFollower::load_shown() {
   SceneDescription scene = load_scene(path_, overrides_);
   SceneParts own = camera_parts(scene.parts);
   camera_ = state_.control().camera();
@@ -66,10 +68,24 @@ SceneDescription SceneFollower::load_with_camera() {
     });
   }
   own_camera_ = std::move(own);
-  if (!camera_) return scene;
-  std::vector<Override> moved = overrides_;
-  for (Override& override : camera_overrides(*camera_)) moved.push_back(std::move(override));
-  return load_scene(path_, moved);
+  std::vector<int> frames = scene.frames.frames;
+  frame_ = state_.control().frame();
+  if (frame_ && std::find(frames.begin(), frames.end(), *frame_) == frames.end()) {
+    state_.control().end_frame(*frame_);
+    frame_ = std::nullopt;
+  }
+  const int frame = frame_.value_or(frames.front());
+  frames.resize(std::min(frames.size(), kMaxFrames));
+  state_.update([&](ViewStatus& status) {
+    status.frame = frame;
+    status.frames = std::move(frames);
+  });
+  std::vector<Override> chosen = overrides_;
+  if (frame_) chosen.push_back({"frames", std::to_string(frame)});
+  if (camera_) {
+    for (Override& override : camera_overrides(*camera_)) chosen.push_back(std::move(override));
+  }
+  return camera_ || frame_ ? load_scene(path_, chosen) : std::move(scene);
 }
 
 std::shared_ptr<const SceneEdit> SceneFollower::read() {
@@ -77,7 +93,7 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   // The stamps of known files are taken before they are read: a file that changes while it is read is read
   // again.
   const FileStamps before = stamps_of(files_);
-  SceneDescription scene = load_with_camera();
+  SceneDescription scene = load_shown();
   FileStamps stamps = stamps_of(followed_files(scene));
   state_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
   for (auto& [file, stamp] : stamps) {
@@ -93,8 +109,9 @@ void SceneFollower::run() {
     if (changed) wait_for_quiet();
     // A file that an include names and that does not exist yet is not among files_.
     const bool broken = !state_.status().scene_error.empty();
-    const bool moved = state_.control().camera() != camera_;
-    if (changed || broken || moved || stamps_of(files_) != stamps_) read_again();
+    const ViewControl& control = state_.control();
+    const bool chosen = control.camera() != camera_ || control.frame() != frame_;
+    if (changed || broken || chosen || stamps_of(files_) != stamps_) read_again();
   }
 }
 

@@ -16,7 +16,8 @@ namespace pelage {
 /// Follows the files of a scene on a thread of its own: reads the scene again after each change, and submits
 /// the edit to a renderer unless the change is only one of comments or formatting. A scene with mistakes is
 /// not submitted; its problems are shown on the state until the next change. If a client has moved the camera
-/// (ViewControl), the edits have that camera, until the scene's own camera changes.
+/// (ViewControl), the edits have that camera, until the scene's own camera changes. If a client has chosen a
+/// frame, the edits have this frame alone, until the scene has it no more.
 class SceneFollower {
  public:
   /// Reads the scene and submits it. Throws the errors of load_scene().
@@ -31,7 +32,8 @@ class SceneFollower {
   void wait_for_quiet();
   void read_again();
   std::shared_ptr<const SceneEdit> read();
-  SceneDescription load_with_camera();
+  /// Loads the scene with the camera and the frame that clients have chosen.
+  SceneDescription load_shown();
 
   const std::filesystem::path path_;
   const std::vector<Override> overrides_;
@@ -41,8 +43,9 @@ class SceneFollower {
   std::vector<std::filesystem::path> files_;
   FileStamps stamps_;                      // of files_, when they were read last
   std::shared_ptr<const SceneEdit> last_;  // submitted last
-  std::optional<CameraMove> camera_;       // of last_
-  SceneParts own_camera_;                  // parts of the scene's own camera
+  std::optional<CameraMove> camera_;       // of last_, like the next one
+  std::optional<int> frame_;
+  SceneParts own_camera_;  // parts of the scene's own camera
   std::atomic<bool> stopped_{false};
   std::thread thread_;  // the last member: it uses the others
 };

@@ -39,6 +39,18 @@ class ViewControl {
     if (changed_) changed_();
   }
 
+  /// Returns the chosen frame; empty for the first frame of the scene.
+  std::optional<int> frame() const { return locked(frame_); }
+  void set_frame(std::optional<int> frame) {
+    const std::lock_guard lock(mutex_);
+    frame_ = frame;
+    if (changed_) changed_();
+  }
+
+  /// Ends the choice of a frame, unless a newer choice has replaced it.
+  void end_frame(int frame) {
+    if (this->frame() == frame) set_frame({});
+  }
   /// Ends a move of the camera, unless a newer move has replaced it.
   void end_camera(const CameraMove& move) {
     if (camera() == move) set_camera({});
@@ -59,7 +71,7 @@ class ViewControl {
   /// Returns how often the region was set.
   uint32_t region_version() const { return region_version_; }
 
-  /// Calls `changed` after each change of the camera. An empty function ends these calls.
+  /// Calls `changed` after each change of the camera or the frame. An empty function ends these calls.
   void on_change(std::function<void()> changed) {
     const std::lock_guard lock(mutex_);
     changed_ = std::move(changed);
@@ -74,6 +86,7 @@ class ViewControl {
 
   mutable std::mutex mutex_;  // guards all
   std::optional<CameraMove> camera_;
+  std::optional<int> frame_;
   std::optional<PixelBox> region_;
   std::atomic<uint32_t> region_version_{0};
   std::function<void()> changed_;

@@ -10,6 +10,7 @@ namespace pelage {
 namespace {
 
 constexpr double kWanted_s = 5;  // a page asks for its layers several times a second
+constexpr size_t kMaxPages = 100, kMaxPageName = 40;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -75,6 +76,19 @@ std::shared_ptr<const Picture> ViewState::with_layers(const std::vector<std::str
   const std::lock_guard lock(mutex_);
   if (picture_ == last) picture_ = result;
   return result;
+}
+
+void ViewState::see_page(const std::string& page) {
+  if (page.empty() || page.size() > kMaxPageName) return;
+  const std::lock_guard lock(mutex_);
+  std::erase_if(pages_, [](const auto& seen) { return now_s() - seen.second > kWanted_s; });
+  if (pages_.size() < kMaxPages || pages_.contains(page)) pages_[page] = now_s();
+}
+
+size_t ViewState::pages() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<size_t>(std::count_if(
+      pages_.begin(), pages_.end(), [](const auto& seen) { return now_s() - seen.second <= kWanted_s; }));
 }
 
 bool ViewState::is_wanted(const std::string& layer) const {

@@ -39,6 +39,8 @@ struct ViewStatus {
   int64_t memory_bytes = 0;     ///< memory in use, as the ledger counts it
   std::shared_ptr<const SceneEdit> edit;  ///< the edit that is rendered; null before the first
   int edits = 0;                          ///< edits that were rendered so far; the first picture is no edit
+  int frame = 1;                          ///< the frame that is shown
+  std::vector<int> frames;                ///< the first 10,000 frames of the scene
   ViewCamera camera;
   std::string camera_note;          ///< why the camera is no longer the one that a client moved; may be empty
   std::vector<std::string> layers;  ///< names of all layers of the picture
@@ -79,6 +81,11 @@ class ViewState {
   /// Otherwise, asks for them, so that the next picture has them. Null if the picture does not have all of
   /// them yet.
   std::shared_ptr<const Picture> with_layers(const std::vector<std::string>& layers);
+  /// Notes that a page asks for the state. `page`: chosen by the page; empty for other clients.
+  void see_page(const std::string& page);
+  /// Returns how many pages have asked within the last seconds.
+  size_t pages() const;
+
   /// Returns whether a layer was asked for within the last seconds.
   bool is_wanted(const std::string& layer) const;
   /// Calls `use(frame)` with the finished frame; returns false if there is none. The frame stays until `use`
@@ -94,11 +101,12 @@ class ViewState {
   ViewControl control_;
   PixelQueries why_;
 
-  mutable std::mutex mutex_;  // guards status_, picture_, wanted_
+  mutable std::mutex mutex_;  // guards status_, picture_, wanted_, pages_
   ViewStatus status_;
   std::shared_ptr<const Picture> picture_;
   uint64_t version_ = 0;
   std::map<std::string, double> wanted_;  // time of the last request, by layer
+  std::map<std::string, double> pages_;   // time of the last request, by page
 
   mutable std::mutex frame_mutex_;  // guards frame_; never locked while mutex_ is
   std::unique_ptr<const FinishedFrame> frame_;

@@ -50,7 +50,7 @@ Redo redo_of(const std::string& part) {
   if (std::find(kSamplingKeys.begin(), kSamplingKeys.end(), part) != kSamplingKeys.end())
     return Redo::kSampling;
   if (part.starts_with("lights.")) return Redo::kSampling;
-  if (part.starts_with("camera")) return Redo::kGeometry;
+  if (part.starts_with("camera") || part == "frames") return Redo::kGeometry;
   if (part.starts_with("render.gather.")) {
     // The accelerator widens strands, and `raster` needs other boxes than `rays`.
     const bool shapes = part == "render.gather.min_width" || part == "render.gather.visibility";

@@ -28,8 +28,8 @@ enum class Redo {
 
 /// Returns what must be done again for a scene with the parts `after`, if everything was done for `before`.
 /// Changes of lights, of materials (except the opacity of fibres, their model, and colours that are
-/// attributes of strands) and of keys that concern only sampling need kSampling. Changes of the camera and of
-/// the keys of `render.gather` that widen strands need kGeometry.
+/// attributes of strands) and of keys that concern only sampling need kSampling. Changes of the camera, of
+/// `frames` and of the keys of `render.gather` that widen strands need kGeometry.
 Redo compare_scenes(const SceneParts& before, const SceneParts& after);
 
 }  // namespace pelage

@@ -22,7 +22,7 @@ LIBRARY_HEADERS = {
     "Highway": r"hwy/",
     "CLI11": r"CLI/",
     "JSON": r"nlohmann/",
-    "cpp-httplib": r"httplib\.h",
+    "Boost": r"boost/",
     "libpng": r"png\.h",
     "zlib": r"zlib\.h",
 }

@@ -40,16 +40,21 @@ class LiveRendererTest : public testing::Test {
     return wait_until([=](const ViewStatus& status) { return status.done() && status.edits == edits; });
   }
 
-  /// Compares all channels at rest with those of a render of the files as they are now.
-  void expect_rendered() const {
+  /// Renders the files as they are now.
+  FrameResult rendered(const std::vector<Override>& overrides, MemoryLedger& ledger) const {
     const Workers workers(1);
-    MemoryLedger ledger;
     NoProgress progress;
     const Job job{workers, ledger, progress};
-    const SceneDescription scene = load_scene(path());
+    const SceneDescription scene = load_scene(path(), overrides);
     const auto assets = load_assets(scene, job);
     const World world = compose(scene, *assets, scene.frames.frames.front(), job);
-    const FrameResult truth = render(world, job);
+    return render(world, job);
+  }
+
+  /// Compares all channels at rest with those of a render of the files as they are now.
+  void expect_rendered(const std::vector<Override>& overrides = {}) const {
+    MemoryLedger ledger;
+    const FrameResult truth = rendered(overrides, ledger);
     const std::vector<ExrChannel> wanted = truth.film.exr_rows(0, truth.film.height());
     std::vector<ExrChannel> shown;
     ASSERT_TRUE(state_.with_frame([&](const FinishedFrame& frame) {
@@ -275,6 +280,43 @@ TEST_F(LiveRendererTest, ExplainsPixelsOfThePicture) {
   replace("mesh: cube.obj, poses", "mesh: none.obj, poses");
   ASSERT_TRUE(wait_until([](const ViewStatus& s) { return !s.error().empty(); }));
   EXPECT_EQ(ask(12, 8).first, 409);
+}
+
+TEST_F(LiveRendererTest, ExplainsThePictureThatIsRefined) {
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {{"render.samples", "1000000"}}, renderer, state_);
+  ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.mean_samples >= 1; }));
+  const CommandAnswer answer = state_.why().ask(11, 8, [] { return false; });
+  ASSERT_EQ(answer.status, 200) << answer.json;
+  const nlohmann::json why = nlohmann::json::parse(answer.json);
+  EXPECT_LT(why["samples"], 1000000);
+  MemoryLedger ledger;
+  const FrameResult truth = rendered({{"render.samples", why["samples"].dump()}}, ledger);
+  const Rgb wanted = truth.film.radiance(11, 8);
+  EXPECT_EQ(why["radiance"], nlohmann::json({wanted.x, wanted.y, wanted.z}));
+  EXPECT_FALSE(state_.status().done());
+}
+
+TEST_F(LiveRendererTest, ShowsTheChosenFrame) {
+  replace("pelage: 1", "pelage: 1\nframes: 1-3");
+  LiveRenderer renderer(state_, 2);
+  const SceneFollower follower(path(), {}, renderer, state_);
+  ASSERT_TRUE(rests(0));
+  expect_rendered();
+  EXPECT_EQ(state_.status().frames, (std::vector<int>{1, 2, 3}));
+  state_.control().set_frame(3);
+  ASSERT_TRUE(rests(1));
+  EXPECT_EQ(state_.status().frame, 3);
+  expect_rendered({{"frames", "3"}});
+  replace("intensity: 30", "intensity: 60");
+  ASSERT_TRUE(rests(2));
+  expect_rendered({{"frames", "3"}});
+  // The chosen frame is gone.
+  replace("frames: 1-3", "frames: 2");
+  ASSERT_TRUE(rests(3));
+  EXPECT_EQ(state_.status().frame, 2);
+  EXPECT_FALSE(state_.control().frame());
+  expect_rendered();
 }
 
 TEST_F(LiveRendererTest, AnswersWhileItRendersAndWhileTheSceneChanges) {

@@ -114,6 +114,29 @@ class Page(PageTest):
         click()
         self.until(lambda: self.text(browser, "why_message") == "")
 
+        # Closing the panel ends the mode, so that the camera gets its clicks back.
+        browser.find_element(By.ID, "camera_mode").click()
+        browser.find_element(By.ID, "why_mode").click()
+        click()
+        self.until(lambda: self.attribute(browser, "why"))
+        self.shoot(browser, "why_and_camera")
+        browser.find_element(By.ID, "why_close").click()
+        self.assertEqual(browser.find_element(By.ID, "why_mode").get_attribute("aria-pressed"), "false")
+        webdriver.ActionChains(browser).move_to_element(canvas).click_and_hold().move_by_offset(60, 0).release().perform()
+        self.until(lambda: self.state()["camera"]["moved"])
+        # So does a camera that is turned on.
+        browser.find_element(By.ID, "camera_mode").click()
+        browser.find_element(By.ID, "why_mode").click()
+        browser.find_element(By.ID, "camera_mode").click()
+        self.assertEqual(browser.find_element(By.ID, "why_mode").get_attribute("aria-pressed"), "false")
+        browser.find_element(By.ID, "camera_reset").click()
+        self.until(lambda: not self.state()["camera"]["moved"])
+        browser.find_element(By.ID, "camera_mode").click()
+        self.settle(browser)
+        browser.find_element(By.ID, "why_mode").click()
+        click()
+        self.until(lambda: self.attribute(browser, "why"))
+
         # The background.
         webdriver.ActionChains(browser).send_keys(Keys.ESCAPE).perform()
         self.until(lambda: not browser.find_element(By.ID, "why").is_displayed() and lit() == 0)
@@ -184,6 +207,35 @@ class Page(PageTest):
         bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(bad, [])
 
+    def test_explains_the_picture_while_it_is_refined(self):
+        self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=1000000")
+        browser = self.open()
+        browser.find_element(By.ID, "why_mode").click()
+        webdriver.ActionChains(browser).move_to_element(browser.find_element(By.ID, "canvas")).click().perform()
+        self.until(lambda: self.attribute(browser, "why"))
+        self.assertFalse(self.state()["done"])
+        self.assertIn("at rest", self.text(browser, "why_answer"))
+        self.shoot(browser, "why_while_refining")
+
+    def test_chooses_a_frame(self):
+        self.view("--set", "image={width: 120, height: 80}", "--set", "frames=1-3",
+                  "--set", "lights.sky.intensity={keys: {1: 0.2, 3: 6}}")
+        browser = self.open()
+        self.settle(browser)
+        dark = self.mean(browser)[0]
+        self.assertEqual(self.text(browser, "frame_number"), "1")
+        body = browser.find_element(By.TAG_NAME, "body")
+        body.send_keys(".")
+        body.send_keys(".")
+        body.send_keys(".")
+        self.wait(lambda state: state["frame"] == 3)
+        self.settle(browser)
+        self.until(lambda: self.mean(browser)[0] > dark + 20)
+        self.until(lambda: self.text(browser, "frame_number") == "3")
+        self.shoot(browser, "frame")
+        browser.execute_script("const e = document.getElementById('frame'); e.value = 0; e.dispatchEvent(new Event('input'))")
+        self.wait(lambda state: state["frame"] == 1)
+
     def test_a_rectangle_is_refined_first(self):
         self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=100000")
         browser = self.open()
@@ -221,6 +273,10 @@ class Page(PageTest):
         for page in pages:
             self.settle(page)
         self.until(lambda: self.mean(pages[0]) == self.mean(pages[1]))
+        self.until(lambda: self.text(pages[0], "shared") == "2 pages share one camera, region and frame")
+        self.shoot(pages[0], "two_pages")
+        pages[1].get("about:blank")
+        self.until(lambda: self.text(pages[0], "shared") == "")
 
 
 if __name__ == "__main__":

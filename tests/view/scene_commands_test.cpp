@@ -67,6 +67,19 @@ TEST_F(SceneCommandsTest, LightsOfAMixAreTextAndCanBeWritten) {
   EXPECT_EQ(read_file(path()), wanted);
 }
 
+TEST_F(SceneCommandsTest, AFrameOfTheSceneIsChosen) {
+  state_.update([](ViewStatus& status) { status.frames = {1, 2, 3, 9}; });
+  EXPECT_EQ(run("frame.json", R"({"frame": 9})").status, 200);
+  EXPECT_EQ(state_.control().frame(), 9);
+  for (const char* frame : {"4", "\"2\"", "[2]", "2.5", "1e99", "{}"})
+    expect_refused("frame.json", R"({"frame": )" + std::string(frame) + "}",
+                   "one of the scene's frames: 1-3,9");
+  expect_refused("frame.json", R"({"farme": 2})", "did you mean 'frame'?");
+  EXPECT_EQ(state_.control().frame(), 9);
+  EXPECT_EQ(run("frame.json", R"({"frame": null})").status, 200);
+  EXPECT_EQ(state_.control().frame(), std::nullopt);
+}
+
 TEST_F(SceneCommandsTest, NothingIsWrittenForClientsElsewhere) {
   const std::string before = read_file(path());
   const SceneCommands commands(path(), {}, state_, false);

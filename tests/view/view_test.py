@@ -2,11 +2,9 @@
 """`pelage view` as its clients see it: what it answers, and what it survives."""
 import json
 import pathlib
-import random
 import socket
 import struct
 import sys
-import threading
 import time
 import unittest
 
@@ -148,6 +146,15 @@ class View(ViewTest):
         self.assertEqual(self.get("why.json", token="0" * 32, x=12, y=8)[0], 403)
         self.interrupt(process)
 
+    def test_a_frame_is_chosen(self):
+        self.view("--set", "frames=1-3", "--set", "camera.position={keys: {1: [3, 2, 8], 3: [-3, 2, 8]}}")
+        self.assertEqual(self.rest()["frames"], [1, 2, 3])
+        self.assertEqual(self.post("frame.json", {"frame": 4})[0], 400)
+        self.assertEqual(self.post("frame.json", {"frame": 3})[0], 200)
+        state = self.wait(lambda state: state["done"] and state["edits"] == 1)
+        self.assertEqual((state["frame"], state["camera"]["position"]), (3, [-3, 2, 8]))
+        self.expect_rendered("--frames", "3", "--set", "camera.position={keys: {1: [3, 2, 8], 3: [-3, 2, 8]}}")
+
     def test_commands_of_strangers_are_refused(self):
         self.view()
         self.rest()
@@ -159,8 +166,9 @@ class View(ViewTest):
             self.assertEqual(self.post("lights.json", body, token=token)[0], 403)
         for type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
             self.assertEqual(self.post("lights.json", body, {"Content-Type": type})[0], 415)
-        for headers in ({"Transfer-Encoding": "chunked"}, {"Content-Encoding": "gzip"}, {"Content-Length": "-1"}):
+        for headers in ({"Transfer-Encoding": "chunked"}, {"Content-Encoding": "gzip"}):
             self.assertEqual(self.post("lights.json", body, headers)[0], 411)
+        self.assertEqual(self.post("lights.json", body, {"Content-Length": "-1"})[0], 400)
         self.assertEqual(self.post("lights.json", b"{" + b" " * 20000 + b"}")[0], 413)
         for name in ("", "state.json", "main.js", "none", "../lights.json", "lights.json/"):
             self.assertEqual(self.post(name, body)[0], 405, name)
@@ -217,62 +225,6 @@ class View(ViewTest):
             client.sendall(f"GET /layer.bin?name=beauty&token={self.token} HTTP/1.1\r\n"
                            f"Host: 127.0.0.1:{self.port}\r\n\r\n".encode())
             client.close()
-        self.rest()
-        self.interrupt(process)
-
-    def test_malformed_requests_do_no_harm(self):
-        process = self.view()
-        self.rest()
-        good = (f"GET /state.json?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n"
-                f"Range: bytes=0-5\r\nContent-Length: 0\r\nContent-Type: multipart/form-data; boundary=x\r\n"
-                f"Accept-Encoding: gzip\r\nTransfer-Encoding: chunked\r\nExpect: 100-continue\r\n\r\n").encode()
-        numbers = random.Random(5)
-
-        def fuzzed(good):
-            data = bytearray(good)
-            for _ in range(numbers.randint(1, 12)):
-                at = numbers.randrange(len(data))
-                kind = numbers.randrange(5)
-                if kind == 0:
-                    data[at] = numbers.randrange(256)
-                elif kind == 1:
-                    del data[at:at + numbers.randint(1, 20)]
-                elif kind == 2:
-                    data[at:at] = bytes(numbers.randrange(256) for _ in range(numbers.randint(1, 30)))
-                elif kind == 3:
-                    data[at:at] = data[at:at + 40] * numbers.randint(1, 40)
-                else:
-                    data[at:at] = numbers.choice([b"\r\n\r\n", b"%", b"%00", b"../", b"9" * 30, b"-1", b"\0", b":"])
-                if not data:
-                    data = bytearray(b"\r\n")
-            return bytes(data)
-
-        command = b'{"action": "move", "position": [3, 2, 8], "look_at": [0, 0, 0]}'
-        post = (f"POST /camera.json?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n"
-                f"Content-Type: application/json\r\nContent-Length: {len(command)}\r\n\r\n").encode() + command
-        why = good.replace(b"/state.json?", b"/why.json?x=12&y=8&")
-        requests = []
-        for i in range(1000):
-            requests.append(fuzzed([post, good, why][i % 3]))
-
-        def send(some):
-            for request in some:
-                try:
-                    with socket.create_connection(("127.0.0.1", self.port), timeout=10) as client:
-                        client.sendall(request)
-                        client.shutdown(socket.SHUT_WR)
-                        answer = client.recv(1 << 16)
-                        if b"nowhere" not in request:
-                            self.assertNotIn(b"root:", answer)
-                except OSError:
-                    pass
-
-        threads = [threading.Thread(target=send, args=(requests[i::8],)) for i in range(8)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertIsNone(process.poll())
         self.rest()
         self.interrupt(process)
 

@@ -36,9 +36,10 @@ TEST_F(SceneChanges, LightsMaterialsAndSamplesKeepGeometry) {
     EXPECT_EQ(redo_after(key, value), Redo::kSampling) << key;
 }
 
-TEST_F(SceneChanges, TheCameraKeepsAssets) {
+TEST_F(SceneChanges, TheCameraAndTheFrameKeepAssets) {
   EXPECT_EQ(redo_after("camera.position", "[3, 2, 9]"), Redo::kGeometry);
   EXPECT_EQ(redo_after("camera.lens", "{f_stop: 4}"), Redo::kGeometry);
+  EXPECT_EQ(redo_after("frames", "2"), Redo::kGeometry);
 }
 
 TEST_F(SceneChanges, WidthsOfDrawnStrandsKeepAssets) {
@@ -61,8 +62,7 @@ TEST_F(SceneChanges, EverythingElseStartsAnew) {
                                                         {"render.memory", "1G"},
                                                         {"render.lod.enabled", "true"},
                                                         {"render.bounds", "none"},
-                                                        {"image.width", "32"},
-                                                        {"frames", "2"}})
+                                                        {"image.width", "32"}})
     EXPECT_EQ(redo_after(key, value), Redo::kAssets) << key;
 }
 

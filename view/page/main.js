@@ -6,6 +6,7 @@ import {CameraTool} from "./camera_tool.js";
 import {RegionTool} from "./region_tool.js";
 import {WhyTool} from "./why_tool.js";
 import {Mixer} from "./mixer.js";
+import {FrameChoice} from "./frame_choice.js";
 import {offerText} from "./scene_text.js";
 
 const element = id => document.getElementById(id);
@@ -21,7 +22,8 @@ const view = {
     if (message) setTimeout(() => { if (element("note").textContent === message) element("note").hidden = true; }, kNote_ms);
   },
 };
-const camera = new CameraTool(view), region = new RegionTool(view), why = new WhyTool(view);
+const camera = new CameraTool(view), region = new RegionTool(view);
+const why = new WhyTool(view, () => toggle("why_mode", false)), frames = new FrameChoice(view.tell);
 const isOn = id => element(id).getAttribute("aria-pressed") === "true";
 const takesClick = (event, id, key) => event.type === "pointerdown" && (event[key] || isOn(id));
 const toolOf = event => takesClick(event, "region_mode", "shiftKey") ? region : takesClick(event, "why_mode", "altKey") ? why
@@ -88,6 +90,8 @@ function showState() {
   element("progress").hidden = state.done;
   element("progress").value = state.progress;
   if (state.camera.note !== told) view.tell(told = state.camera.note);
+  frames.update(state);
+  element("shared").textContent = state.pages > 1 ? `${state.pages} pages share one camera, region and frame` : "";
   element("camera_text").disabled = element("camera_reset").disabled = !state.camera.moved;
   if (!region.from) {
     canvas.setBox(state.region);
@@ -127,8 +131,13 @@ async function follow() {
   setTimeout(follow, camera.camera ? kFastPoll_ms : kPoll_ms);
 }
 
+// The modes that take clicks: each before those that come after it.
+const clickModes = ["region_mode", "why_mode", "camera_mode"];
+
 function toggle(id, on = !isOn(id)) {
   element(id).setAttribute("aria-pressed", on);
+  // A mode that begins ends those that would take its clicks.
+  if (on) for (const other of clickModes.slice(0, Math.max(clickModes.indexOf(id), 0))) element(other).setAttribute("aria-pressed", false);
   element("camera_bar").hidden = !isOn("camera_mode");
   element("canvas").classList.toggle("camera", isOn("camera_mode"));
   element("lights").hidden = !isOn("lights_mode");
@@ -161,6 +170,7 @@ addEventListener("keydown", event => {
   if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;
   if (event.key in keys) element(keys[event.key]).click();
   if (event.key === "b") compare(true);
+  if (event.key === "," || event.key === ".") frames.step(event.key === "." ? 1 : -1);
   if (event.key === "Escape" && !element("why").hidden) why.close();
   else if (event.key === "Escape" && (state?.region || region.last)) region.clear();
 });

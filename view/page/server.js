@@ -2,10 +2,12 @@
 // Requests to the server that served this page.
 const token = new URLSearchParams(location.search).get("token");
 
+const page = crypto.getRandomValues(new Uint32Array(2)).join("-");  // the server counts pages
+
 const address = (name, values = {}) => `${name}?${new URLSearchParams({...values, token})}`;
 
 export async function readState() {
-  const answer = await fetch(address("state.json"));
+  const answer = await fetch(address("state.json", {page}));
   if (!answer.ok) throw new Error(`state.json: ${answer.status}`);
   return answer.json();
 }

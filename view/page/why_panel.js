@@ -34,13 +34,14 @@ function surface({strand, skin, depth}) {
     const root = strand.root && ["root", `face ${strand.root.face}, u ${number(strand.root.u)}, v ${number(strand.root.v)}`];
     return section(`Strand ${strand.id} of ${strand.coat}`, table(null, [
       ...(root ? [root, ["texture", list(strand.root_uv)]] : []),
+      ["at rest", list(strand.rest)],
       ["hit at", `${(100 * strand.along).toFixed(1)} % of its length from the root`],
       ["across", `${strand.across.toFixed(2)} radii`], ["depth", number(depth)]]));
   }
   if (!skin) return section("Nothing", make("p", {textContent: "The camera sees neither fur nor skin here, only lights."}));
   return section(`Skin ${skin.name}`, table(null, [
     ["face", `${skin.face}, u ${number(skin.place[0])}, v ${number(skin.place[1])}`], ["texture", list(skin.uv)],
-    ["depth", number(depth)]]));
+    ["at rest", list(skin.rest)], ["depth", number(depth)]]));
 }
 
 function steps({steps}) {

@@ -6,12 +6,14 @@ import {showWhy} from "./why_panel.js";
 const element = id => document.getElementById(id);
 
 export class WhyTool {
-  // `view`: {state(), canvas}.
-  constructor(view) {
+  // `view`: {state(), canvas}. `onClose`: called when the panel is closed.
+  constructor(view, onClose) {
     this.view = view;
+    this.onClose = onClose;
     this.asked = 0;       // count of questions
     this.answer = null;   // shown now
     this.edit = -1;       // of the picture that it explains
+    this.done = false;    // whether this picture was finished
     element("why_close").addEventListener("click", () => this.close());
   }
 
@@ -29,7 +31,7 @@ export class WhyTool {
     element("why").hidden = false;
     element("why_message").textContent = `pixel ${x} ${y}: waiting for the answer…`;
     this.view.canvas.setMarks({pixel: {x, y}, outline: this.answer?.strand?.outline ?? []});
-    const edit = this.view.state().edits;
+    const {edits, done} = this.view.state();
     let answer = null, message = "";
     try {
       answer = await readWhy(x, y);
@@ -38,7 +40,8 @@ export class WhyTool {
     }
     if (question !== this.asked) return;  // another question was asked, or the panel was closed
     this.answer = answer;
-    this.edit = edit;
+    this.edit = edits;
+    this.done = done;
     element("why_message").textContent = message;
     showWhy(element("why_answer"), answer);
     this.view.canvas.setMarks({pixel: {x, y}, outline: answer?.strand?.outline ?? []});
@@ -47,8 +50,11 @@ export class WhyTool {
 
   // After each state of the server.
   update() {
-    if (this.answer && this.edit !== this.view.state().edits)
-      element("why_message").textContent = "The scene has changed since. Click again.";
+    if (!this.answer) return;
+    const {edits, done} = this.view.state();
+    if (this.edit !== edits) element("why_message").textContent = "The scene has changed since. Click again.";
+    else if (done && !this.done)
+      element("why_message").textContent = `This was the picture with ${this.answer.samples} samples here. Click again for the finished one.`;
   }
 
   close() {
@@ -57,5 +63,6 @@ export class WhyTool {
     element("why").hidden = true;
     this.view.canvas.setMarks(null);
     document.body.dataset.why = "";
+    this.onClose();
   }
 }
