@@ -68,7 +68,11 @@ std::optional<RibSetting> RibInterpreter::value_of(const RibSetting& reference, 
                                    std::string("value"), std::string("input"), std::string("baseColor")}) {
     const RibSetting* setting = node.find(input);
     if (!setting) continue;
-    if (is_reference(*setting)) return value_of(*setting, depth + 1);
+    if (is_reference(*setting)) {
+      std::optional<RibSetting> inner = value_of(*setting, depth + 1);
+      if (inner) inner->name = reference.name;
+      return inner;
+    }
     value.numbers = setting->numbers;
     value.strings = setting->strings;
     return value;

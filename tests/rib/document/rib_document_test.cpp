@@ -9,7 +9,7 @@
 #include "tests/support/quiet_job.h"
 #include "world/world.h"
 
-namespace pelage {
+namespace pelage::rib_document_test {
 namespace {
 
 class RibDocumentTest : public testing::Test {
@@ -292,4 +292,4 @@ TEST_F(RibDocumentTest, ScenesGetMaterialsForTheSurfacesOfTheirArchives) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_document_test
