@@ -154,7 +154,7 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
   auto rib = std::make_shared<RibScene>(read_rib(params.rib.path, options));
   // The others are known since the scene was loaded.
   for (const Problem& warning : rib->warnings) {
-    if (warning.message.starts_with("strands without extent"))
+    if (warning.message.starts_with("dropped strands without extent"))
       job.progress.warn(to_string(warning.position) + ": " + warning.message);
   }
   size_t bytes = bytes_of(*rib);

@@ -294,12 +294,44 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   assets.materials = load_materials(scene, assets.textures, job);
 }
 
+namespace {
+
+/// Everything that the document states about the fibres of a material, without their colour and opacity.
+/// Empty if the scene has no document.
+std::string fibre_text(const SceneParts& parts, const std::string& material) {
+  const std::string prefix = "materials." + material + ".";
+  std::string text;
+  for (auto part = parts.lower_bound(prefix); part != parts.end() && part->first.starts_with(prefix);
+       ++part) {
+    const std::string key = part->first.substr(prefix.size());
+    const bool other = key.find('.') != std::string::npos;  // a material whose name begins with this name
+    if (other || key == "color" || key == "color_attribute" || key == "opacity") continue;
+    text += fmt::format("{} {:x} {:x}\n", key, part->second.high, part->second.low);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,
                                            const Job& job) {
   std::vector<MaterialParams> materials;
+  std::map<std::string, const FibreParams*> made;  // a table is made once for all materials that share it
+  materials.reserve(scene.materials.items.size());
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();
-    materials.push_back(with_tables(with_textures(params, textures), job));
+    MaterialParams material = with_textures(params, textures);
+    const std::string text = fibre_text(scene.parts, name);
+    if (const auto known = made.find(text); known != made.end() && fibre_params(material)) {
+      std::visit(
+          [&]<class P>(P& p) {
+            if constexpr (std::is_base_of_v<FibreParams, P>) p.coat_color = known->second->coat_color;
+          },
+          material);
+    }
+    materials.push_back(with_tables(std::move(material), job));
+    if (const FibreParams* fibre = fibre_params(materials.back()); fibre && !text.empty())
+      made.try_emplace(text, fibre);
   }
   return materials;
 }

@@ -27,7 +27,8 @@ Camera::Pose Camera::make_pose(const CameraParams& params, double frame) {
   pose.forward = view.normalized();
   pose.right = right.normalized();
   pose.up = pose.right.cross(pose.forward);
-  pose.tan_half = std::tan(params.fov.at(frame) * kPi / 360);
+  pose.half_height = params.orthographic ? 0.5f * params.orthographic->at(frame)
+                                         : std::tan(params.fov.at(frame) * kPi / 360);
   return pose;
 }
 
@@ -37,7 +38,7 @@ Camera::Pose Camera::blend(const Pose& a, const Pose& b, float t) {
   pose.forward = (a.forward * (1 - t) + b.forward * t).normalized();
   pose.right = pose.forward.cross(a.up * (1 - t) + b.up * t).normalized();
   pose.up = pose.right.cross(pose.forward);
-  pose.tan_half = a.tan_half * (1 - t) + b.tan_half * t;
+  pose.half_height = a.half_height * (1 - t) + b.half_height * t;
   return pose;
 }
 
@@ -46,15 +47,17 @@ Camera::Camera(const CameraParams& params, double frame, int width, int height)
       next_frame_(make_pose(params, frame + 1)),
       shutter_(params.shutter),
       width_(width),
-      height_(height) {
+      height_(height),
+      parallel_(params.orthographic.has_value()) {
   const bool still = params.position.is_constant() && params.look_at.is_constant() &&
-                     params.up.is_constant() && params.fov.is_constant();
+                     params.up.is_constant() &&
+                     (parallel_ ? params.orthographic->is_constant() : params.fov.is_constant());
   const int count = still || shutter_frames() <= 0 ? 1 : std::max(params.motion_keys, 2);
   for (int k = 0; k < count; ++k) {
     const double at = count == 1 ? shutter_.x : shutter_.x + shutter_frames() * k / (count - 1.0);
     keys_.push_back(make_pose(params, frame + at));
   }
-  if (params.lens) {
+  if (params.lens && !parallel_) {
     lens_radius_ = params.lens->focal_length / (2 * params.lens->f_stop);
     focus_distance_ = params.lens->focus_distance;
   }
@@ -69,9 +72,10 @@ Camera::Pose Camera::pose_at(float time) const {
 
 CameraRay Camera::ray(float x, float y, const V2f& lens, float time) const {
   const Pose pose = pose_at(time);
-  const float scale = 2 * pose.tan_half / static_cast<float>(height_);
+  const float scale = 2 * pose.half_height / static_cast<float>(height_);
   const float sx = (x - 0.5f * static_cast<float>(width_)) * scale;
   const float sy = (0.5f * static_cast<float>(height_) - y) * scale;
+  if (parallel_) return {pose.position + sx * pose.right + sy * pose.up, pose.forward, time};
   const V3f through = pose.forward + sx * pose.right + sy * pose.up;  // unit length along the axis
   if (lens_radius_ == 0) return {pose.position, through.normalized(), time};
   const V2f disk = lens_radius_ * concentric_disk(lens);
@@ -83,7 +87,7 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
   const V3f local = world - pose.position;
   const float depth = local.dot(pose.forward);
   if (!(depth > 0)) return std::nullopt;
-  const float scale = static_cast<float>(height_) / (2 * pose.tan_half * depth);
+  const float scale = pixels_at(pose, depth);
   return V3f(0.5f * static_cast<float>(width_) + scale * local.dot(pose.right),
              0.5f * static_cast<float>(height_) - scale * local.dot(pose.up), depth);
 }
@@ -92,18 +96,18 @@ float Camera::projected_length(std::span<const float> points, float time) const 
   const Pose pose = pose_at(time);
   V2f from(0);
   bool from_visible = false;
-  float length = 0;  // in units of the plane at distance 1
+  float length = 0;
   for (size_t i = 0; i + 3 < points.size(); i += 4) {
     const V3f local = V3f(points[i], points[i + 1], points[i + 2]) - pose.position;
     const float depth = local.dot(pose.forward);
     const bool visible = depth > 0;
-    const float scale = 1 / depth;
+    const float scale = pixels_at(pose, depth);
     const V2f to(scale * local.dot(pose.right), scale * local.dot(pose.up));
     if (visible && from_visible) length += std::sqrt((to - from).dot(to - from));
     from = to;
     from_visible = visible;
   }
-  return length * static_cast<float>(height_) / (2 * pose.tan_half);
+  return length;
 }
 
 bool Camera::may_see(const Box3f& box) const {
@@ -122,8 +126,8 @@ bool Camera::may_see(const Box3f& box) const {
       const V3f local = at - pose.position;
       const float depth = local.dot(pose.forward), x = local.dot(pose.right), y = local.dot(pose.up);
       const float blur = has_lens() ? lens_radius_ * std::abs(1 - depth / focus_distance_) : 0;
-      const float half_height = depth * pose.tan_half + blur;
-      const float half_width = depth * pose.tan_half * aspect + blur;
+      const float half = (parallel_ ? 1 : depth) * pose.half_height;
+      const float half_height = half + blur, half_width = half * aspect + blur;
       outside[0] += depth <= 0;
       outside[1] += x < -half_width;
       outside[2] += x > half_width;
@@ -134,19 +138,29 @@ bool Camera::may_see(const Box3f& box) const {
   return *std::max_element(outside, outside + 5) < 8 * keys_.size();
 }
 
+namespace {
+
+// An orthographic camera sees the same size at any distance: all distances count as this one.
+constexpr float kAnyDistance = 1e12f;
+
+}  // namespace
+
 View Camera::view() const {
   View view;
   view.position = frame_.position;
-  view.focal_pixels = static_cast<float>(height_) / (2 * frame_.tan_half);
+  if (parallel_) view.near_distance = kAnyDistance;
+  view.focal_pixels = pixels_at(frame_, 1) * (parallel_ ? kAnyDistance : 1);
   return view;
 }
 
 LodView Camera::lod_view() const {
   const auto pose = [this](float time) {
     const Pose at = pose_at(time);
-    return LodPose{at.position, at.right, at.up, at.forward, static_cast<float>(height_) / (2 * at.tan_half)};
+    return LodPose{at.position, at.right, at.up, at.forward,
+                   pixels_at(at, 1) * (parallel_ ? kAnyDistance : 1)};
   };
   LodView view{pose(0), pose(1)};
+  if (parallel_) view.near_distance = kAnyDistance;
   view.lens_diameter = 2 * lens_radius_;
   if (has_lens()) view.focus_distance = focus_distance_;
   return view;
@@ -165,8 +179,10 @@ M44f Camera::world_to_camera() const {
 
 M44f Camera::world_to_ndc() const {
   const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
-  const float y = 0.5f / frame_.tan_half;
+  const float y = 0.5f / frame_.half_height;
   const float x = y / aspect;
+  if (parallel_)  // (x, y, z, 1) -> (x' + 1/2, 1/2 - y', z, 1)
+    return world_to_camera() * M44f(x, 0, 0, 0, 0, -y, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
   // camera (x, y, z, 1) -> (x' + z/2, z/2 - y', z, z)
   const M44f projection(x, 0, 0, 0,        //
                         0, -y, 0, 0,       //

@@ -24,8 +24,9 @@ struct CameraParams {
   Keyed<V3f> position{V3f(0, 0, 10)};
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};
-  Keyed<float> fov{40.0f};  ///< vertical, degrees
-  V2f shutter{0, 0};        ///< opening and closing time, in frames relative to the frame
+  Keyed<float> fov{40.0f};                   ///< vertical, degrees; unused if orthographic
+  std::optional<Keyed<float>> orthographic;  ///< height of the picture in scene units; empty: perspective
+  V2f shutter{0, 0};                         ///< opening and closing time, in frames relative to the frame
   int motion_keys = 2;
   std::optional<LensParams> lens;
   static const Schema<CameraParams>& schema();
@@ -39,7 +40,8 @@ struct CameraRay {
 
 /// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Between
 /// `motion_keys` evenly spaced times of the shutter, the position, the axes and the tangent of half the field
-/// of view are interpolated linearly, like geometry; the axes are then orthonormalised.
+/// of view are interpolated linearly, like geometry; the axes are then orthonormalised. The lines of sight of
+/// an orthographic camera are parallel. They start in the plane of the camera; a lens has no effect.
 ///
 /// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
@@ -89,17 +91,23 @@ class Camera {
  private:
   struct Pose {
     V3f position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-    float tan_half = 1;  ///< tangent of half the vertical field of view
+    /// Half the height of the picture at distance 1, or at any distance if the camera is orthographic.
+    float half_height = 1;
   };
   static Pose make_pose(const CameraParams& params, double frame);
   static Pose blend(const Pose& a, const Pose& b, float t);
   Pose pose_at(float time) const;
   std::optional<V3f> project(const Pose& pose, const V3f& world) const;
+  /// Returns the factor from scene units at this depth to pixels.
+  float pixels_at(const Pose& pose, float depth) const {
+    return static_cast<float>(height_) / (2 * pose.half_height * (parallel_ ? 1 : depth));
+  }
 
   std::vector<Pose> keys_;  // over the shutter; one key for a static camera
   Pose frame_, next_frame_;
   V2f shutter_;
   int width_, height_;
+  bool parallel_ = false;  // orthographic
   float lens_radius_ = 0, focus_distance_ = 0;
 };
 

@@ -46,6 +46,12 @@ const Schema<CameraParams>& CameraParams::schema() {
     s.key("up", &CameraParams::up, {.help = "Up vector"});
     s.key("fov", &CameraParams::fov,
           {.unit = "degrees", .help = "Vertical field of view", .min = 0.01, .max = 170});
+    s.key("orthographic", &CameraParams::orthographic,
+          {.unit = "scene units",
+           .help = "Height of the picture for parallel lines of sight, which start in the plane of the "
+                   "camera. Without this key, the camera has perspective, with `fov`",
+           .min = 0,
+           .above_min = true});
     s.key("shutter", &CameraParams::shutter,
           {.unit = "frames",
            .help = "Shutter open and close, relative to the frame; equal values give no motion blur"});

@@ -16,19 +16,20 @@ namespace {
 
 constexpr size_t kMaxRibFrames = 10'000;
 
-/// Position, target and up vector of a camera matrix, and half the height of the picture at distance 1.
+/// Position, target and up vector of a camera matrix.
 struct Pose {
   V3f position, target, up;
 };
 
-Pose camera_pose(const M44f& to_camera) {
+/// `middle`: of the picture, in camera space.
+Pose camera_pose(const M44f& to_camera, const V3d& middle) {
   Imath::M44d inverse;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) inverse[i][j] = to_camera[i][j];
   }
   inverse.invert();
   V3d position, forward, up;
-  inverse.multVecMatrix(V3d(0), position);
+  inverse.multVecMatrix(middle, position);
   inverse.multDirMatrix(V3d(0, 0, 1), forward);
   inverse.multDirMatrix(V3d(0, 1, 0), up);
   // A target as far as the origin, because coordinates of points near the camera would be rounded.
@@ -51,8 +52,13 @@ class PictureBlocks {
     if (!camera.to_camera.moves()) times = {0};
     for (const double time : times) {
       frames_.push_back(frame + time);
-      poses_.push_back(camera_pose(camera.to_camera.at(time)));
-      fovs_.push_back(vertical_fov(camera));
+      const Window window = window_of(camera);
+      const V3d middle = camera.perspective ? V3d(0) : V3d(window.x, window.y, 0);
+      poses_.push_back(camera_pose(camera.to_camera.at(time), middle));
+      const double half = std::tan(double(camera.fov) * std::numbers::pi / 360) * window.half_height;
+      const double scale = std::cbrt(std::abs(double(camera.to_camera.at(time).determinant())));
+      sizes_.push_back(camera.perspective ? std::atan(half) * 360 / std::numbers::pi
+                                          : 2 * window.half_height / scale);
     }
     keys_ = std::max(keys_, times.size());
     if (poses_.size() == times.size()) first_ = camera;
@@ -63,12 +69,13 @@ class PictureBlocks {
     add_keyed(block, "position", [&](size_t i) { return rib_vector(at_, poses_[i].position); });
     add_keyed(block, "look_at", [&](size_t i) { return rib_vector(at_, poses_[i].target); });
     add_keyed(block, "up", [&](size_t i) { return rib_vector(at_, poses_[i].up); });
-    add_keyed(block, "fov", [&](size_t i) { return rib_number(at_, fovs_[i]); });
+    add_keyed(block, first_.perspective ? "fov" : "orthographic",
+              [&](size_t i) { return rib_number(at_, sizes_[i]); });
     const V2f shutter = first_.shutter.value_or(V2f(0));
     add_entry(block, "shutter", Value::list(at_, {rib_number(at_, shutter.x), rib_number(at_, shutter.y)}));
     if (keys_ > 2)
       add_entry(block, "motion_keys", rib_number(at_, static_cast<double>(std::min<size_t>(keys_, 64))));
-    if (first_.lens) {
+    if (first_.lens && first_.perspective) {
       Value lens = Value::map(at_, {});
       add_entry(lens, "f_stop", rib_number(at_, first_.lens->x));
       add_entry(lens, "focal_length", rib_number(at_, first_.lens->y));
@@ -98,7 +105,7 @@ class PictureBlocks {
   void add_keyed(Value& block, const char* key, const Make& make) const {
     const auto differs = [&](size_t i) {
       return poses_[i].position != poses_[0].position || poses_[i].target != poses_[0].target ||
-             poses_[i].up != poses_[0].up || fovs_[i] != fovs_[0];
+             poses_[i].up != poses_[0].up || sizes_[i] != sizes_[0];
     };
     bool moves = false;
     for (size_t i = 1; i < poses_.size(); ++i) moves |= differs(i);
@@ -115,20 +122,24 @@ class PictureBlocks {
     add_entry(block, key, std::move(keyed));
   }
 
-  double vertical_fov(const RibCamera& camera) {
+  /// The middle of the screen window and half its height.
+  struct Window {
+    double x = 0, y = 0, half_height = 1;
+  };
+
+  Window window_of(const RibCamera& camera) {
     const double aspect = camera.frame_aspect.value_or(
         static_cast<float>(width_) / static_cast<float>(height_) * camera.pixel_aspect.value_or(1.0f));
-    double half_height = aspect >= 1 ? 1 : 1 / aspect;
+    Window window{0, 0, aspect >= 1 ? 1 : 1 / aspect};
     if (camera.screen_window) {
       const auto& [left, right, bottom, top] = *camera.screen_window;
-      half_height = 0.5 * (double(top) - bottom);
+      window = {0.5 * (double(left) + right), 0.5 * (double(bottom) + top), 0.5 * (double(top) - bottom)};
       const double size = double(right) - left + top - bottom;
-      if (std::abs(double(left) + right) + std::abs(double(bottom) + top) > 1e-4 * size)
+      if (camera.perspective && 2 * (std::abs(window.x) + std::abs(window.y)) > 1e-4 * size)
         warn("the middle of ScreenWindow is not (0, 0), which is not supported; the picture is moved");
     }
     if (std::abs(aspect * height_ / width_ - 1) > 1e-4) warn("pixels that are not square are not supported");
-    const double half = std::tan(double(camera.fov) * std::numbers::pi / 360) * half_height;
-    return std::atan(half) * 360 / std::numbers::pi;
+    return window;
   }
 
   void warn(const char* message) {
@@ -143,7 +154,7 @@ class PictureBlocks {
   size_t keys_ = 0;
   std::vector<double> frames_;
   std::vector<Pose> poses_;
-  std::vector<double> fovs_;
+  std::vector<double> sizes_;  // of the picture: the field of view, or the height of an orthographic one
   RibCamera first_;
 };
 
@@ -183,8 +194,9 @@ void add_materials_and_lights(const RibScene& rib, RibMaterials own, Value& docu
     add_entry(table, material.name, rib_text(at, material.name));
   }
   own.finish(warnings);
+  RibLights blocks;
   for (const RibLight& light : rib.lights) {
-    if (std::optional<Value> block = rib_light(light, warnings))
+    if (std::optional<Value> block = blocks.light(light, warnings))
       add_entry(lights, light.name, std::move(*block));
   }
   if (!materials.entries().empty()) add_entry(document, "materials", std::move(materials));
@@ -218,9 +230,12 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
   if (frames.size() < 2) picture.add_frame(frames.empty() ? 1 : frames.front(), rib.camera);
   std::string list;
   for (const int frame : frames) {
+    if (frames.size() > 1) {
+      const RibScene one = read_description(path, frame, true, use, max_request_bytes);
+      if (one.shadow_pass && !rib.shadow_pass) continue;
+      picture.add_frame(frame, one.camera);
+    }
     list += (list.empty() ? "" : ",") + std::to_string(frame);
-    if (frames.size() > 1)
-      picture.add_frame(frame, read_description(path, frame, true, use, max_request_bytes).camera);
   }
   Value document = Value::map(at, {});
   add_entry(document, "pelage", rib_number(at, 1));

@@ -13,6 +13,9 @@ namespace {
 
 // Distant and point lights are small spheres.
 constexpr float kDistance = 10'000, kDistantHalfAngle = 0.25f, kPointRadius = 0.05f;
+constexpr float kRadians = std::numbers::pi_v<float> / 180;
+// The names of maps end with these, see TextureLibrary. Maps of other renderers are not lat-long images.
+constexpr const char* kMapEndings[] = {".hdr", ".exr", ".tif", ".tiff", ".tx", ".png", ".jpg", ".jpeg"};
 
 V3f color_setting(const RibShader& shader, const char* name, const V3f& otherwise) {
   const RibSetting* setting = shader.find(name);
@@ -25,46 +28,107 @@ float float_setting(const RibShader& shader, const char* name, float otherwise) 
   return setting && setting->numbers.size() == 1 ? setting->numbers[0] : otherwise;
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 /// Builds the block of one light.
 class LightBlock {
  public:
   explicit LightBlock(const RibLight& light)
-      : light_(light), shader_(*light.shader), matrix_(light.to_world.at(0)) {
-    radiance_ = color_setting(shader_, "lightcolor", V3f(1)) * float_setting(shader_, "intensity", 1);
-    block_ = Value::map(shader_.position, {});
+      : light_(light),
+        shader_(*light.shader),
+        name_(lower(shader_.name)),
+        matrix_(light.to_world.at(0)),
+        block_(Value::map(shader_.position, {})) {
+    radiance_ = color_setting(shader_, light.is_ris ? "lightColor" : "lightcolor", V3f(1)) *
+                float_setting(shader_, "intensity", 1) * std::exp2(float_setting(shader_, "exposure", 0));
   }
 
+  /// Why the block is only similar to the light; empty if it is not.
+  const std::string& difference() const { return difference_; }
+
   std::optional<Value> make() {
-    const std::string& name = shader_.name;
-    const auto contains = [&](const char* part) { return name.find(part) != std::string::npos; };
-    if (light_.shape == RibLight::Shape::kSphere) {
-      sphere(V3f(0) * matrix_, light_.radius * std::cbrt(std::abs(matrix_.determinant())), radiance_);
-    } else if (light_.shape == RibLight::Shape::kQuad) {
-      if (!quad()) return {};
-    } else if (name == "distantlight") {
-      const float sine = std::sin(kDistantHalfAngle * std::numbers::pi_v<float> / 180);
-      V3f from, to;
-      matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), from);
-      matrix_.multVecMatrix(color_setting(shader_, "to", V3f(0, 0, 1)), to);
-      if (!((to - from).length() > 0)) return {};
-      sphere(-(to - from).normalized() * kDistance, kDistance * sine, radiance_ / (sine * sine));
-    } else if (name == "pointlight") {
-      V3f from;
-      matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), from);
-      sphere(from, kPointRadius, radiance_ / (kPointRadius * kPointRadius));
-    } else if (name == "ambientlight" || contains("env") || contains("dome") || contains("Dome")) {
-      environment();
-    } else {
-      return {};
-    }
+    for (int c = 0; c < 3; ++c) radiance_[c] = std::isfinite(radiance_[c]) ? std::max(radiance_[c], 0.0f) : 0;
+    if (!(light_.is_ris ? ris() : light_.shape == RibLight::Shape::kPoint ? by_name() : area())) return {};
+    const bool visible = light_.visible && !contains("distant");
+    if (visible || is("environment")) put("visible", visible ? "true" : "false");
     return std::move(block_);
   }
 
  private:
+  bool contains(const char* part) const { return name_.find(part) != std::string::npos; }
+  bool is(const char* type) const { return block_.find("type")->text() == type; }
   void put(const char* key, Value value) { add_entry(block_, key, std::move(value)); }
   void put(const char* key, const V3f& v) { put(key, rib_vector(shader_.position, v)); }
   void put(const char* key, float x) { put(key, rib_number(shader_.position, x)); }
-  void put(const char* key, const char* text) { put(key, rib_text(shader_.position, text)); }
+  void put(const char* key, const char* text) { put(key, Value::scalar(shader_.position, text)); }
+
+  bool area() {
+    if (light_.shape == RibLight::Shape::kPolygon) return polygon(light_.corners);
+    if (light_.shape != RibLight::Shape::kSphere) return false;
+    sphere(V3f(0) * matrix_, light_.radius * scale(), radiance_);
+    return true;
+  }
+
+  /// The names of the standard shaders, and what shaders of other programs usually have in their names.
+  bool by_name() {
+    const bool from = shader_.find("from"), to = shader_.find("to");
+    if (contains("ambient") || contains("env") || contains("dome") || contains("sky") || contains("hemi")) {
+      environment();
+    } else if (contains("distant") || contains("direction") || contains("dirlight") || contains("sun")) {
+      return distant(color_setting(shader_, "from", V3f(0)), color_setting(shader_, "to", V3f(0, 0, 1)),
+                     kDistantHalfAngle);
+    } else if (contains("point") || contains("spot") || from) {
+      if (contains("spot") || to) difference_ = "shines in all directions, not in a cone";
+      V3f position;
+      matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), position);
+      sphere(position, kPointRadius, radiance_ / (kPointRadius * kPointRadius));
+    } else if (contains("area")) {
+      return square(0.5f);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  /// A square around the origin that shines along -z.
+  bool square(float half) {
+    std::vector<V3f> corners;
+    for (const V3f& p : {V3f(-half, half, 0), V3f(half, half, 0), V3f(half, -half, 0), V3f(-half, -half, 0)})
+      corners.push_back(p * matrix_);
+    return polygon(corners);
+  }
+
+  /// The lights of RIS have the size 1 and shine along -z.
+  bool ris() {
+    if (contains("dome") || contains("env")) {
+      environment();
+    } else if (contains("rect") || contains("portal") || contains("disk")) {
+      return square(contains("disk") ? 0.25f * std::sqrt(std::numbers::pi_v<float>) : 0.5f);
+    } else if (contains("distant")) {
+      return distant(V3f(0), V3f(0, 0, -1), 0.5f * float_setting(shader_, "angleExtent", 0.53f));
+    } else if (contains("sphere") || contains("cylinder")) {
+      if (contains("cylinder")) difference_ = "is a sphere";
+      sphere(V3f(0) * matrix_, 0.5f * scale(), radiance_);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  float scale() const { return std::cbrt(std::abs(matrix_.determinant())); }
+
+  /// Its irradiance is `radiance_` times pi, whatever its size.
+  bool distant(V3f from, V3f to, float half_angle) {
+    matrix_.multVecMatrix(V3f(from), from);
+    matrix_.multVecMatrix(V3f(to), to);
+    if (!((to - from).length() > 0)) return false;
+    const float sine = std::sin(std::clamp(half_angle, 0.01f, 60.0f) * kRadians);
+    sphere(-(to - from).normalized() * kDistance, kDistance * sine, radiance_ / (sine * sine));
+    return true;
+  }
 
   void sphere(const V3f& position, float radius, const V3f& radiance) {
     put("type", "sphere");
@@ -73,29 +137,48 @@ class LightBlock {
     put("radiance", radiance);
   }
 
-  // Counterclockwise as seen from the emitting side.
-  bool quad() {
-    if (light_.corners.size() != 4) return false;
-    const V3f *c = light_.corners.data(), across = c[1] - c[0], up = c[3] - c[0];
-    const V3f center = 0.25f * (c[0] + c[1] + c[2] + c[3]), normal = across.cross(up);
-    if (!(normal.length() > 0)) return false;
+  /// The emitting side is that from which the corners are counterclockwise in a right-handed space. Each
+  /// mirror in the transform exchanges the sides, because it also makes the object's space left-handed. A
+  /// polygon that is no rectangle becomes a square of the same area.
+  bool polygon(const std::vector<V3f>& corners) {
+    const size_t n = corners.size();
+    if (n < 3) return false;
+    V3f center(0), normal(0);  // the length of `normal` is twice the area
+    for (size_t i = 0; i < n; ++i) {
+      center += corners[i] / static_cast<float>(n);
+      normal += (corners[i] - corners[0]).cross(corners[(i + 1) % n] - corners[0]);
+    }
+    const float area = 0.5f * normal.length();
+    if (!(area > 0)) return false;
+    V3f across = corners[1] - corners[0], up = corners[n - 1] - corners[0];
+    float width = across.length(), height = up.length();
+    const float error = (corners[0] + corners[2] - corners[1] - corners[n - 1]).length();
+    if (n != 4 || error > 1e-3f * (width + height) || std::abs(across.dot(up)) > 1e-3f * width * height) {
+      width = height = std::sqrt(area);
+      up = normal.cross(across);
+      difference_ = "is a square of the same area";
+    }
+    if (matrix_.determinant() < 0) normal = -normal;
     put("type", "rectangle");
     put("position", center);
-    put("look_at", center + normal.normalized() * std::max(across.length(), up.length()));
+    put("look_at", center + normal.normalized() * std::max(width, height));
     put("up", up);
-    put("size", Value::list(shader_.position, {rib_number(shader_.position, across.length()),
-                                               rib_number(shader_.position, up.length())}));
+    put("size", Value::list(shader_.position,
+                            {rib_number(shader_.position, width), rib_number(shader_.position, height)}));
     put("radiance", radiance_);
     return true;
   }
 
   void environment() {
     put("type", "environment");
-    for (const char* key : {"filename", "texname", "map", "lightColorMap"}) {
-      const RibSetting* file = shader_.find(key);
-      if (!file || file->strings.size() != 1 || file->strings[0].empty()) continue;
-      put("file", rib_text(file->position, file->strings[0]));
-      break;
+    if (!light_.map.empty()) {
+      const std::string ending = lower(light_.map.extension().string());
+      if (std::find(std::begin(kMapEndings), std::end(kMapEndings), ending) == std::end(kMapEndings)) {
+        difference_ = "has constant light, because its map " + quote(light_.map.filename().string()) +
+                      " is no lat-long image";
+      } else {
+        put("file", rib_text(shader_.position, light_.map.string()));
+      }
     }
     put("radiance", radiance_);
     M44f rotation = matrix_, mirror;
@@ -108,20 +191,25 @@ class LightBlock {
 
   const RibLight& light_;
   const RibShader& shader_;
+  const std::string name_;  // of the shader, in lower case
   const M44f matrix_;
   V3f radiance_;
   Value block_;
+  std::string difference_;
 };
 
 }  // namespace
 
-std::optional<Value> rib_light(const RibLight& light, std::vector<Problem>& warnings) {
+std::optional<Value> RibLights::light(const RibLight& light, std::vector<Problem>& warnings) {
   const RibSetting* own = light.shader->find("pelage");
   if (own && own->strings.size() == 1) return rib_block(*own);
-  std::optional<Value> block = LightBlock(light).make();
-  if (!block)
-    warnings.push_back({light.shader->position, "light shader " + quote(light.shader->name) +
-                                                    " with this shape is not supported; skipped"});
+  LightBlock maker(light);
+  std::optional<Value> block = maker.make();
+  const std::string why = block ? maker.difference() : "with this shape is not supported; skipped";
+  if (!why.empty() && warned_.insert(light.shader->name + why).second)
+    warnings.push_back(
+        {light.shader->position,
+         "light " + (block ? quote(light.shader->name) : "shader " + quote(light.shader->name)) + " " + why});
   return block;
 }
 

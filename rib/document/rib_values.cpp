@@ -24,7 +24,30 @@ bool is_block(const RibSetting* setting) {
   return setting && setting->strings.size() == 1 && setting->strings[0].starts_with('{');
 }
 
+Value attribute_field(const SourcePosition& position, const char* name) {
+  Value field = Value::map(position, {});
+  add_entry(field, "attribute", rib_text(position, name));
+  return field;
+}
+
 }  // namespace
+
+Value rib_color(const RibMaterial& material, const SourcePosition& at) {
+  return material.strand_color ? attribute_field(at, "color")
+                               : rib_vector(at, V3f(material.color.x, material.color.y, material.color.z));
+}
+
+void add_opacity(Value& block, const RibMaterial& material, const SourcePosition& at) {
+  if (!material.fibre || (material.opacity >= 1 && !material.strand_opacity)) return;
+  Value constant = rib_number(at, material.opacity);
+  if (!material.strand_opacity) {
+    add_entry(block, "opacity", std::move(constant));
+    return;
+  }
+  Value product = Value::map(at, {});
+  add_entry(product, "product", Value::list(at, {std::move(constant), attribute_field(at, "opacity")}));
+  add_entry(block, "opacity", std::move(product));
+}
 
 Value rib_text(const SourcePosition& position, std::string text) {
   return Value::scalar(position, std::move(text), true);
@@ -73,17 +96,12 @@ Value RibMaterials::material(const RibMaterial& material, std::vector<Problem>& 
   if (std::optional<Value> own = table_.find(material)) return std::move(*own);
   if (shader && is_block(shader->find("pelage"))) return rib_block(*shader->find("pelage"));
   if (shader && shader->find("model")) return settings_block(*shader);
+  if (std::optional<Value> bxdf = rib_bxdf(material)) return std::move(*bxdf);
   const SourcePosition position = shader ? shader->position : SourcePosition{};
   Value block = Value::map(position, {});
   add_entry(block, "model", rib_text(position, material.fibre ? "cone-shell" : "lambert"));
-  if (material.strand_color) {
-    Value field = Value::map(position, {});
-    add_entry(field, "attribute", rib_text(position, "color"));
-    add_entry(block, "color", std::move(field));
-  } else {
-    add_entry(block, "color",
-              rib_vector(position, V3f(material.color.x, material.color.y, material.color.z)));
-  }
+  add_entry(block, "color", rib_color(material, position));
+  add_opacity(block, material, position);
   if (shader && unknown_.insert(shader->name).second)
     warnings.push_back(
         {position, "shader " + quote(shader->name) + " is not known; it is rendered as " +

@@ -28,6 +28,13 @@ Value rib_block(const RibSetting& setting);
 /// Returns the value of a setting: a text, a number or a list of numbers; nullopt for several texts.
 std::optional<Value> rib_setting(const RibSetting& setting);
 
+/// Returns the colour of a material without a shader: that of the strands, if they have any, or Color.
+Value rib_color(const RibMaterial& material, const SourcePosition& position);
+/// Adds the opacity of a material of strands to its block, if it is not 1.
+void add_opacity(Value& block, const RibMaterial& material, const SourcePosition& position);
+/// Returns the block of a material whose shader is a Bxdf of RenderMan that Pelage knows.
+std::optional<Value> rib_bxdf(const RibMaterial& material);
+
 /// Makes materials of the surfaces of all RIB files of a scene.
 class RibMaterials {
  public:
@@ -45,7 +52,14 @@ class RibMaterials {
   std::set<std::string> names_, unknown_;  // of shaders and materials; of unknown shaders
 };
 
-/// Returns the block of a light; empty, with a warning, if it is not supported.
-std::optional<Value> rib_light(const RibLight& light, std::vector<Problem>& warnings);
+/// Makes blocks of the lights of a RIB file.
+class RibLights {
+ public:
+  /// Returns the block of a light; empty, with one warning per name of a shader, if it is not supported.
+  std::optional<Value> light(const RibLight& light, std::vector<Problem>& warnings);
+
+ private:
+  std::set<std::string> warned_;
+};
 
 }  // namespace pelage

@@ -60,14 +60,20 @@ void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, c
   rib.request("PixelSamples").number(grid.x).number(grid.y);
   rib.request("Shutter").number(camera.shutter.x).number(camera.shutter.y);
   write_clipping(rib, camera.position.at(frame), content);
-  if (camera.lens) {
+  if (camera.lens && !camera.orthographic) {
     rib.request("DepthOfField").number(camera.lens->f_stop).number(camera.lens->focal_length);
     rib.number(camera.lens->focus_distance);
   }
-  rib.request("ScreenWindow").number(-aspect).number(aspect).number(-1).number(1);
-  rib.request("Projection").text("perspective").parameter("float fov").numbers({camera.fov.at(frame)});
+  const float half = camera.orthographic ? 0.5f * camera.orthographic->at(frame) : 1;
+  rib.request("ScreenWindow").number(-half * aspect).number(half * aspect).number(-half).number(half);
+  if (camera.orthographic) {
+    rib.request("Projection").text("orthographic");
+  } else {
+    rib.request("Projection").text("perspective").parameter("float fov").numbers({camera.fov.at(frame)});
+  }
   rib.request("Display").text(picture).text("exr").text("rgba");
-  rib.request("Quantize").text("rgba").number(0).number(0).number(0).number(0);  // floats
+  // Floats. Binary readers take 0 for an integer only if it is written as one.
+  rib.request("Quantize").text("rgba").integer(0).integer(0).integer(0).number(0);
   write_transform(rib, scene, frame);
 }
 

@@ -46,6 +46,26 @@ std::vector<float> numbers_of(std::span<const V3f> points) {
 
 std::vector<int32_t> signed_of(std::span<const uint32_t> values) { return {values.begin(), values.end()}; }
 
+/// Only subdivision has tags for holes. Polygons are written without them.
+ControlMesh without_holes(const ControlMesh& mesh) {
+  ControlMesh kept = mesh;
+  kept.face_sizes.clear(), kept.face_vertices.clear(), kept.face_uv.clear(), kept.holes.clear();
+  std::vector<bool> hole(mesh.face_count());
+  for (const uint32_t face : mesh.holes) hole[face] = true;
+  ptrdiff_t corner = 0;
+  for (size_t face = 0; face < hole.size(); ++face) {
+    const ptrdiff_t first = corner;
+    corner += mesh.face_sizes[face];
+    if (hole[face]) continue;
+    kept.face_sizes.push_back(mesh.face_sizes[face]);
+    kept.face_vertices.insert(kept.face_vertices.end(), mesh.face_vertices.begin() + first,
+                              mesh.face_vertices.begin() + corner);
+    if (!mesh.face_uv.empty())
+      kept.face_uv.insert(kept.face_uv.end(), mesh.face_uv.begin() + first, mesh.face_uv.begin() + corner);
+  }
+  return kept;
+}
+
 /// One key of a skin, from its sizes on. All keys have the same arguments but for the points.
 struct SkinWriter {
   const ControlMesh& mesh;
@@ -73,7 +93,13 @@ struct SkinWriter {
 
 void write_skin(RibWriter& rib, const ControlMesh& mesh, SubdivisionScheme scheme, BoundaryRule boundary,
                 std::span<const std::vector<V3f>> cages, std::span<const float> times) {
-  const bool flat = scheme == SubdivisionScheme::kNone;
+  // Few renderers know bilinear subdivision, whose surfaces are polygons.
+  const bool bilinear = scheme == SubdivisionScheme::kBilinear;
+  const bool flat = bilinear || scheme == SubdivisionScheme::kNone;
+  if (flat && !mesh.holes.empty()) {
+    write_skin(rib, without_holes(mesh), scheme, boundary, cages, times);
+    return;
+  }
   SkinWriter skin{.mesh = mesh,
                   .scheme = flat ? nullptr : EnumNames<SubdivisionScheme>::names[static_cast<int>(scheme)],
                   .st = {},
@@ -84,6 +110,7 @@ void write_skin(RibWriter& rib, const ControlMesh& mesh, SubdivisionScheme schem
   for (const std::vector<V3f>& cage : cages) {
     if (cage != mesh.positions) skin.rest = numbers_of(mesh.positions);
   }
+  if (bilinear) rib.request("Attribute").text("pelage").parameter("string scheme").texts({"bilinear"});
   if (mesh.chaikin_creases)
     rib.request("Attribute").text("pelage").parameter("integer chaikin").integers({1});
   if (cages.size() > 1) rib.request("MotionBegin").numbers(times);

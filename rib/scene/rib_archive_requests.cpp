@@ -10,24 +10,25 @@
 #include "rib/scene/rib_interpreter.h"
 
 namespace pelage {
-std::filesystem::path RibInterpreter::find_file(const std::string& name, const RibStatement& request) const {
+std::optional<std::filesystem::path> RibInterpreter::find_file(const std::string& name,
+                                                               const std::vector<std::string>& search_path,
+                                                               const RibStatement& request) {
   std::error_code ignored;
   if (name.empty() || name.find('\0') != std::string::npos) request.fail("expected the name of a file");
   const std::filesystem::path file(name);
-  if (file.is_absolute()) {
-    if (std::filesystem::exists(file, ignored)) return file;
-    request.fail("no such file " + quote(name));
-  }
   std::vector<std::filesystem::path> folders{std::filesystem::path(request.file).parent_path(),
                                              context_.folder};
-  for (const std::string& folder : context_.search_path) {
+  for (const std::string& folder : search_path) {
     folders.push_back(context_.folder / folder);
     folders.emplace_back(folder);
   }
-  for (const std::filesystem::path& folder : folders) {
+  for (const std::filesystem::path& folder : folders) {  // `file` alone if it is absolute
     if (std::filesystem::exists(folder / file, ignored)) return (folder / file).lexically_normal();
   }
-  request.fail("no such file " + quote(name) + " beside the file or on the search path");
+  warn_once("file " + name, request.position(),
+            request.name + ": no such file " + quote(name) +
+                (file.is_absolute() ? "" : " beside the file or on the search path") + "; skipped");
+  return {};
 }
 
 void RibInterpreter::read_archive(const Call& call) {
@@ -39,7 +40,7 @@ void RibInterpreter::read_archive(const Call& call) {
     instance({std::span(&request, 1), {}});
     return;
   }
-  read_file(find_file(name, request), &request);
+  if (const auto file = find_file(name, context_.search_path, request)) read_file(*file, &request);
 }
 
 void RibInterpreter::procedural(const Call& call) {
@@ -70,8 +71,10 @@ void RibInterpreter::procedural(const Call& call) {
   }
   words.resize(std::max<size_t>(words.size(), 2));
   if (kind == "DelayedReadArchive" || kind == "DelayedReadArchive2") {
-    defer_archive(find_file(words[0], request), request, nullptr);
-    run_waiting_programs();
+    if (const auto file = find_file(words[0], context_.search_path, request)) {
+      defer_archive(*file, request, nullptr);
+      run_waiting_programs();
+    }
   } else if (is_own_procedural(kind, words[0])) {
     add_own_procedural(words[1], request);
   } else {

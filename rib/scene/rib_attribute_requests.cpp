@@ -27,6 +27,24 @@ std::vector<float> numbers_of(const RibStatement& request, size_t count) {
   return numbers;
 }
 
+// Exporters write inverses with rounding errors in the last column, and factors of the whole matrix.
+void make_affine(const RibStatement& request, M44f& matrix) {
+  float largest = 0;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) largest = std::max(largest, std::abs(matrix[row][column]));
+  }
+  const float noise = 1e-5f * std::max(largest, std::abs(matrix[3][3]));
+  for (int row = 0; row < 3; ++row) {
+    if (!(std::abs(matrix[row][3]) <= noise))
+      request.fail("the last column of a matrix must be 0 0 0 1; perspective belongs to Projection");
+    matrix[row][3] = 0;
+  }
+  const float factor = matrix[3][3];
+  if (!(std::abs(factor) > 1e-30f)) request.fail("the last number of a matrix must not be 0");
+  if (std::abs(factor - 1) > 1e-5f) matrix *= 1 / factor;
+  matrix[3][3] = 1;
+}
+
 M44f matrix_of(const RibStatement& request) {
   M44f matrix;
   if (request.name == "Identity") return matrix;
@@ -37,15 +55,12 @@ M44f matrix_of(const RibStatement& request) {
   } else if (request.name == "Rotate") {
     const std::vector<float> n = numbers_of(request, 4);
     const V3f axis(n[1], n[2], n[3]);
-    if (!(axis.length() > 0)) request.fail("the axis of a rotation has no length");
-    matrix.setAxisAngle(axis, n[0] * std::numbers::pi_v<float> / 180);
+    if (axis.length() > 0) matrix.setAxisAngle(axis, n[0] * std::numbers::pi_v<float> / 180);
   } else {
     const std::vector<float> n = numbers_of(request, 16);
     for (size_t i = 0; i < 16; ++i) matrix.x[i / 4][i % 4] = n[i];
-    if (n[3] != 0 || n[7] != 0 || n[11] != 0 || n[15] != 1)
-      request.fail("the last column of a matrix must be 0 0 0 1");
+    make_affine(request, matrix);
   }
-  if (!is_usable(matrix)) request.fail("the transform has no inverse");
   return matrix;
 }
 
@@ -54,11 +69,6 @@ const std::string& text_of(const RibStatement& request, size_t index) {
       request.arguments[index].size() != 1)
     request.fail("expected a name");
   return request.arguments[index].strings[0];
-}
-
-bool is_usable_at_all_times(const RibTransform& transform) {
-  return std::all_of(transform.samples().begin(), transform.samples().end(),
-                     [](const auto& sample) { return is_usable(sample.second); });
 }
 
 }  // namespace
@@ -72,7 +82,6 @@ void RibInterpreter::transform(const Call& call) {
     own = RibTransform(std::move(samples));
   }
   now_.to_world = now_.to_world.after(own);
-  if (!is_usable_at_all_times(now_.to_world)) call.request().fail("the resulting transform has no inverse");
   if (now_.to_world.sample_count() > 1000) call.request().fail("a transform has more than 1000 times");
 }
 
@@ -102,12 +111,12 @@ void RibInterpreter::color(const Call& call) {
   now_.color = Rgb(n[0], n[1], n[2]);
 }
 
-void RibInterpreter::basis(const Call& call) {
-  RibStatement& request = call.request();
-  std::vector<const RibOperand*> a;
-  for (const RibOperand& argument : request.arguments) a.push_back(&argument);
-  if (a.size() != 4) request.fail("expected a basis and a step, twice");
-  const RibOperand &v = *a[2], &step = *a[3];
+void RibInterpreter::opacity(const Call& call) {
+  const std::vector<float> n = numbers_of(call.request(), 3);
+  now_.opacity = std::clamp((n[0] + n[1] + n[2]) / 3, 0.0f, 1.0f);
+}
+
+RibBasis RibInterpreter::basis_of(const RibStatement& request, const RibOperand& v, const RibOperand& step) {
   if (!step.is_number() || step.size() != 1 || !(step.number(0) >= 1 && step.number(0) <= 4))
     request.fail(step, "a step is 1 to 4");
   RibBasis basis;
@@ -127,17 +136,31 @@ void RibInterpreter::basis(const Call& call) {
     request.fail(v, "a basis is a name or 16 numbers, got " + v.describe());
   }
   basis.step = static_cast<int>(step.number(0));
-  now_.basis = basis;
+  return basis;
+}
+
+void RibInterpreter::basis(const Call& call) {
+  const RibStatement& request = call.request();
+  const auto& a = request.arguments;
+  if (a.size() != 4) request.fail("expected a basis and a step, twice");
+  now_.basis_u = basis_of(request, a[0], a[1]);
+  now_.basis = basis_of(request, a[2], a[3]);
 }
 
 void RibInterpreter::declare(const Call& call) {
+  const std::string& type = text_of(call.request(), 1);
+  if (!parse_declaration(type)) {
+    warn_once("declaration " + type, call.request().position(),
+              "Declare: " + quote(type) + " is no class and type that Pelage knows; skipped");
+    return;
+  }
   context_.declarations.declare(text_of(call.request(), 0), text_of(call.request(), 1), call.request());
 }
 
 void RibInterpreter::attribute(const Call& call) {
   RibStatement& request = call.request();
   const std::string kind = text_of(request, 0);
-  if (kind != "identifier" && kind != "pelage") {
+  if (kind != "identifier" && kind != "pelage" && kind != "visibility") {
     warn_once("Attribute " + kind, request.position(),
               "Attribute " + quote(kind) + " is not supported; skipped");
     return;
@@ -145,10 +168,15 @@ void RibInterpreter::attribute(const Call& call) {
   for (const RibSetting& setting : settings_of(request, 1)) {
     if (kind == "identifier") {
       if (setting.name == "name" && setting.strings.size() == 1) now_.name = setting.strings[0];
+    } else if (kind == "visibility") {
+      if (setting.name == "camera" && setting.numbers.size() == 1)
+        now_.seen_by_camera = setting.numbers[0] != 0;
     } else if (setting.name == "tint" && setting.numbers.size() == 3) {
       now_.tint = Rgb(setting.numbers[0], setting.numbers[1], setting.numbers[2]);
     } else if (setting.name == "chaikin" && setting.numbers.size() == 1) {
       now_.chaikin_creases = setting.numbers[0] != 0;
+    } else if (setting.name == "scheme" && setting.strings.size() == 1) {
+      now_.bilinear = setting.strings[0] == "bilinear";
     }
   }
 }
@@ -169,9 +197,7 @@ std::vector<RibSetting> RibInterpreter::settings_of(RibStatement& request, size_
     }
     settings.push_back(std::move(setting));
   }
-  for (const std::string& parameter : undeclared)
-    warn_once("undeclared " + parameter, request.position(),
-              "parameter " + quote(parameter) + " of " + request.name + " has no declared type; skipped");
+  warn_undeclared(request, undeclared);
   return settings;
 }
 
@@ -184,30 +210,6 @@ std::shared_ptr<const RibShader> RibInterpreter::shader_of(RibStatement& request
 }
 
 void RibInterpreter::surface(const Call& call) { now_.surface = shader_of(call.request(), 1); }
-
-void RibInterpreter::light_source(const Call& call) {
-  RibStatement& request = call.request();
-  const bool handle = request.arguments.size() > 1 && (request.arguments.size() % 2 == 0);
-  RibLight light;
-  light.shader = shader_of(request, handle ? 2 : 1);
-  light.name = light_name(*light.shader);
-  light.to_world = now_.to_world;
-  scene_.lights.push_back(std::move(light));
-}
-
-std::string RibInterpreter::light_name(const RibShader& shader) {
-  const RibSetting* name = shader.find("name");
-  if (name && name->strings.size() == 1 && !name->strings[0].empty())
-    return unique_name("light", name->strings[0]);
-  return unique_name("light", now_.name.empty() ? shader.name : now_.name);
-}
-
-void RibInterpreter::area_light_source(const Call& call) {
-  RibStatement& request = call.request();
-  const bool handle = request.arguments.size() > 1 && (request.arguments.size() % 2 == 0);
-  now_.area = shader_of(request, handle ? 2 : 1);
-  if (now_.area->name.empty() || now_.area->name == "null") now_.area.reset();
-}
 
 const RibSetting* RibShader::find(std::string_view wanted) const {
   for (const RibSetting& setting : settings) {

@@ -36,6 +36,7 @@ void RibInterpreter::end_block(const Call& call) {
   RibStatement& request = call.request();
   const std::string name = block_name(request.name);
   if (blocks_.empty()) request.fail("there is no open " + name + "Begin");
+  if (name == "Frame") end_frame();
   Block& open = blocks_.back();
   if (open.name != name)
     request.fail(fmt::format("the innermost open block is {}Begin of {}", open.name,
@@ -61,16 +62,34 @@ void RibInterpreter::begin_frame(const Call& call) {
     return;
   }
   frame_done_ = true;
+  before_frame_ = camera_;
   begin_block(call);
+}
+
+// A frame that only draws shadow maps is no picture of the file's own, so the next frame may be.
+void RibInterpreter::end_frame() {
+  camera_ = before_frame_;
+  if (world_done_ || !skipped_shadows_ || options_.frame) return;
+  frame_done_ = false;
+  scene_.frames.pop_back();
 }
 
 // The world of a file whose camera sees it mirrored is left-handed.
 void RibInterpreter::begin_world(const Call& call) {
+  if (camera_.draws_depths && !options_.shadow_passes) {
+    skipped_shadows_ = true;
+    warn_once("shadow pass", call.request().position(),
+              "the world of a display that is a shadow map is skipped; Pelage needs no shadow maps");
+    skip_until_ = "WorldEnd";
+    return;
+  }
   if (world_done_) {
     warn_once("second world", call.request().position(), "only the first world of a frame is read");
     skip_until_ = "WorldEnd";
     return;
   }
+  if (named_camera_ && now_.to_world == RibTransform()) now_.to_world = *named_camera_;
+  if (!is_usable(now_.to_world)) call.request().fail("the transform of the camera has no inverse");
   const bool mirrors =
       options_.mirror_left_handed && now_.to_world.samples().front().second.determinant() > 0;
   M44f mirror;
@@ -81,6 +100,7 @@ void RibInterpreter::begin_world(const Call& call) {
   scene_.camera = camera_;
   scene_.camera.stated = true;
   scene_.camera.to_camera = now_.to_world.after(context_.world);
+  move_lights_to_world();
   begin_block(call);
   now_.to_world = context_.world;
   world_done_ = true;
@@ -96,7 +116,7 @@ void RibInterpreter::begin_motion(const Call& call) {
   if (times_.empty() || times_.size() > kMaxTimes)
     request.fail(fmt::format("a motion block has 1 to {} times, got {}", kMaxTimes, times_.size()));
   for (size_t i = 0; i < times_.size(); ++i) {
-    if (!std::isfinite(times_[i]) || (i > 0 && !(times_[i] > times_[i - 1])))
+    if (!std::isfinite(times_[i]) || (i > 0 && !(times_[i] >= times_[i - 1])))
       request.fail("the times of a motion block must ascend");
   }
   in_motion_ = true;
@@ -120,7 +140,15 @@ void RibInterpreter::end_motion(const Call& call) {
   if (name.ends_with("Begin") || name.ends_with("End") || name == "ObjectInstance" || name == "ReadArchive" ||
       name == "Procedural" || name == "Procedural2")
     samples.front().fail("this request is invalid within a motion block");
-  dispatch({samples, times_});
+  // Of several requests at the same time, such as those of a closed shutter, the first one counts.
+  size_t kept = 0;
+  for (size_t i = 0; i < times_.size(); ++i) {
+    if (i > 0 && times_[i] == times_[i - 1]) continue;
+    if (kept < i) std::swap(samples[kept], samples[i]);
+    times_[kept++] = times_[i];
+  }
+  times_.resize(kept);
+  dispatch({std::span(samples).first(kept), times_});
 }
 
 void RibInterpreter::begin_object(const Call& call) {
@@ -135,7 +163,10 @@ void RibInterpreter::instance(const Call& call) {
   RibStatement& request = call.request();
   const std::string key = object_key(request);
   const auto object = objects_.find(key);
-  if (object == objects_.end()) request.fail("there is no object " + quote(key));
+  if (object == objects_.end()) {
+    warn_once("object " + key, request.position(), "there is no object " + quote(key) + "; skipped");
+    return;
+  }
   if (replaying_) request.fail("an instance within an object");
   replaying_ = true;
   const size_t depth = blocks_.size();

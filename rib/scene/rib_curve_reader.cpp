@@ -13,14 +13,32 @@ namespace pelage {
 namespace {
 
 // kAsGiven: every point is kept, and periodic curves repeat their first points. kPinned: without the first
-// and the last point, which are phantom points. kResampled: new points.
+// and the last point, which are phantom points. kResampled: new points. In each form, curves without segments
+// give no strands.
 enum class Form { kAsGiven, kPinned, kResampled };
 
-void check_size(const RibStatement& request, const RibNamedValue& p, size_t values) {
-  const size_t needed = values * static_cast<size_t>(p.declaration.components);
-  if (p.value->size() != needed)
-    request.fail(*p.value, fmt::format("parameter {} needs {} numbers for these curves, got {}",
-                                       quote(p.name), needed, p.value->size()));
+std::string wrong_size(const RibNamedValue& p, const RibCurveLayout& layout) {
+  const size_t needed =
+      layout.values(p.declaration.frequency) * static_cast<size_t>(p.declaration.components);
+  if (p.value->size() == needed) return {};
+  return fmt::format("parameter {} needs {} numbers for these curves, got {}", quote(p.name), needed,
+                     p.value->size());
+}
+
+void check_size(const RibStatement& request, const RibNamedValue& p, const RibCurveLayout& layout) {
+  if (const std::string why = wrong_size(p, layout); !why.empty()) request.fail(*p.value, why);
+}
+
+/// Corrects the class of a parameter whose count of values fits another class only. Exporters often declare
+/// values per point as "varying", and values per curve as "constant".
+void correct_class(RibNamedValue& p, const RibCurveLayout& layout) {
+  if (wrong_size(p, layout).empty()) return;
+  const RibClass stated = p.declaration.frequency;
+  for (const RibClass other : {RibClass::kVertex, RibClass::kVarying, RibClass::kUniform}) {
+    p.declaration.frequency = other;
+    if (wrong_size(p, layout).empty()) return;
+  }
+  p.declaration.frequency = stated;
 }
 
 std::span<const float> positions(const RibStatement& request, const std::vector<RibNamedValue>& parameters,
@@ -29,7 +47,10 @@ std::span<const float> positions(const RibStatement& request, const std::vector<
   if (!p) request.fail("parameter \"P\" is missing");
   if (p->declaration.components != 3 || p->value->kind != RibOperand::Kind::kFloats)
     request.fail(*p->value, "parameter \"P\" must be an array of points");
-  check_size(request, *p, layout.total_points);
+  const size_t needed = 3 * layout.total_points;
+  if (p->value->size() != needed)
+    request.fail(*p->value, fmt::format("parameter 'P' needs {} numbers for these curves, got {}", needed,
+                                        p->value->size()));
   return p->value->floats;
 }
 
@@ -41,16 +62,19 @@ bool is_phantom(const float* phantom, const float* end, const float* next) {
 }
 
 bool has_phantoms(const RibCurveLayout& layout, std::span<const float> p) {
-  for (const uint32_t points : layout.points) {
-    const float *first = p.data(), *last = p.data() + 3 * (points - 1);
-    if (!is_phantom(first, first + 3, first + 6) || !is_phantom(last, last - 3, last - 6)) return false;
+  for (size_t c = 0; c < layout.points.size(); ++c) {
+    const uint32_t points = layout.points[c];
+    const float *first = p.data(), *last = p.data() + 3 * (std::max(points, 1u) - 1);
+    if (layout.segments[c] > 0 &&
+        (!is_phantom(first, first + 3, first + 6) || !is_phantom(last, last - 3, last - 6)))
+      return false;
     p = p.subspan(size_t(3) * points);
   }
   return true;
 }
 
 Form form_of(const RibCurveLayout& layout, const std::vector<std::span<const float>>& keys) {
-  if (!layout.cubic) return Form::kAsGiven;
+  if (!layout.cubic || layout.pinned) return Form::kAsGiven;
   using Kind = RibBasis::Kind;
   const bool spline = layout.basis.kind == Kind::kBSpline, rom = layout.basis.kind == Kind::kCatmullRom;
   if (layout.basis.step != 1 || (!spline && !rom)) return Form::kResampled;
@@ -66,12 +90,23 @@ class CurveReader {
   CurveReader(std::span<RibStatement> samples, const RibDeclarations& declarations, const RibBasis& basis)
       : request_(samples.front()), layout_(read_curve_layout(request_, basis)) {
     parameters_ = declarations.parameters(request_, 3, out_.undeclared);
+    project_points(request_, parameters_);
+    out_.unusable = layout_.unusable;
+    for (RibNamedValue& p : parameters_) {
+      if (p.declaration.frequency == RibClass::kVarying && !wrong_size(p, layout_).empty())
+        layout_.fit_stray_joints(p.value->size() / static_cast<size_t>(p.declaration.components));
+      correct_class(p, layout_);
+    }
     all_.push_back(parameters_);
     for (RibStatement& sample : samples.subspan(1)) {
       if (read_curve_layout(sample, basis).points != layout_.points)
         sample.fail("the curves of a motion block must have the same numbers of points");
       std::vector<std::string> ignored;
       all_.push_back(declarations.parameters(sample, 3, ignored));
+      project_points(sample, all_.back());
+    }
+    for (std::vector<RibNamedValue>& key : std::span(all_).subspan(1)) {
+      for (RibNamedValue& p : key) correct_class(p, layout_);
     }
     for (size_t k = 0; k < samples.size(); ++k) keys_.push_back(positions(samples[k], all_[k], layout_));
     form_ = form_of(layout_, keys_);
@@ -86,22 +121,23 @@ class CurveReader {
     for (size_t key = 0; key < keys_.size(); ++key) add_points(key);
     add_ids();
     for (const RibNamedValue& p : parameters_) add_attribute(p);
-    out_.has_color |= out_.strands.attributes.end() != color();
+    out_.has_color = has_attribute("color");
+    out_.has_opacity = has_attribute("opacity");
     return std::move(out_);
   }
 
  private:
   CurveBasis basis() const {
     if (!layout_.cubic) return CurveBasis::kLinear;
-    if (form_ != Form::kPinned) return CurveBasis::kBSpline;
+    if (form_ != Form::kPinned && !layout_.pinned) return CurveBasis::kBSpline;
     return layout_.basis.kind == RibBasis::Kind::kCatmullRom ? CurveBasis::kCatmullRom
                                                              : CurveBasis::kPinnedBSpline;
   }
 
-  std::vector<StrandAttribute>::iterator color() {
-    auto& attributes = out_.strands.attributes;
-    return std::find_if(attributes.begin(), attributes.end(),
-                        [](const StrandAttribute& a) { return a.name == "color"; });
+  bool has_attribute(std::string_view name) const {
+    const auto& attributes = out_.strands.attributes;
+    return std::any_of(attributes.begin(), attributes.end(),
+                       [&](const StrandAttribute& a) { return a.name == name; });
   }
 
   uint32_t strand_points(size_t curve) const {
@@ -121,13 +157,13 @@ class CurveReader {
       curve_of_.push_back(static_cast<uint32_t>(curve));
     };
     starts_.resize(form_ == Form::kResampled ? layout_.points.size() : 0);
-    for (size_t c = 0; c < layout_.points.size(); ++c) {
+    for (size_t c = 0; c < layout_.points.size(); begin += layout_.points[c++]) {
+      if (layout_.segments[c] == 0) continue;
       if (form_ != Form::kResampled) {
         add(c, strand_points(c));
         continue;
       }
       starts_[c] = strand_starts(layout_, c, keys_[0].subspan(3 * begin, size_t(3) * layout_.points[c]));
-      begin += layout_.points[c];
       for (size_t i = 0; i < starts_[c].size(); ++i) {
         const uint32_t end = i + 1 < starts_[c].size() ? starts_[c][i + 1] : layout_.segments[c];
         add(c, size_t(kRibSubdivision) * (end - starts_[c][i]) + 3);
@@ -143,6 +179,7 @@ class CurveReader {
     for (size_t c = 0; c < layout_.points.size(); ++c) {
       const auto p = keys_[key].subspan(3 * begin, size_t(3) * layout_.points[c]);
       begin += layout_.points[c];
+      if (layout_.segments[c] == 0) continue;
       made.clear();
       if (form_ == Form::kResampled) {
         resample_curve(layout_, c, p, starts_[c], made);
@@ -169,20 +206,25 @@ class CurveReader {
     if (width->declaration.components != 1 || !width->value->is_number())
       request_.fail(*width->value, "a width must be a float");
     const std::vector<float> values = per_point(*width, true);
-    for (size_t i = 0; i < radii.size(); ++i) radii[i] = 0.5f * values[i];
+    for (size_t i = 0; i < radii.size(); ++i) {
+      radii[i] = 0.5f * values[i];
+      out_.negative_widths |= values[i] < 0;
+    }
     return radii;
   }
 
   /// Returns the values of a parameter of any class, one per point of the strands. `extrapolate`: for widths,
   /// which the points of a B-spline without phantom points carry beyond its ends.
   std::vector<float> per_point(const RibNamedValue& p, bool extrapolate) {
-    check_size(request_, p, layout_.values(p.declaration.frequency));
+    check_size(request_, p, layout_);
     const auto n = static_cast<size_t>(p.declaration.components);
     std::vector<float> out;
     out.reserve(n * out_.strands.first_point.back());
     size_t strand = 0, joint = 0, vertex = 0;
     std::vector<float> joints;
-    for (size_t c = 0; c < layout_.points.size(); ++c) {
+    for (size_t c = 0; c < layout_.points.size();
+         joint += layout_.joints(c), vertex += layout_.points[c], ++c) {
+      if (layout_.segments[c] == 0) continue;
       const bool closes = layout_.periodic;
       joints.clear();
       const auto value = [&](size_t index, size_t k) { return p.value->number(index * n + k); };
@@ -202,8 +244,6 @@ class CurveReader {
           }
         }
       }
-      joint += layout_.joints(c);
-      vertex += layout_.points[c];
       append_points(c, joints, n, direct, extrapolate, strand, out);
     }
     return out;
@@ -266,31 +306,50 @@ class CurveReader {
     const RibNamedValue *id = find_parameter(parameters_, "id"),
                         *high = find_parameter(parameters_, "id_high");
     // A curve with gaps became several strands, which need different ids.
-    if (!id || id->declaration.frequency != RibClass::kUniform || curve_of_.size() != layout_.points.size())
+    if (!id || id->declaration.frequency != RibClass::kUniform ||
+        curve_of_.size() != layout_.points.size() - layout_.unusable)
       return;
-    check_size(request_, *id, curve_of_.size());
+    check_size(request_, *id, layout_);
     const bool whole = id->value->kind == RibOperand::Kind::kIntegers;
     for (size_t s = 0; s < a.ids.size(); ++s) {
-      const float number = whole ? 0 : id->value->floats[s];
+      const uint32_t c = curve_of_[s];
+      const float number = whole ? 0 : id->value->floats[c];
       if (!whole && !(number >= 0 && number <= 16777216.0f)) return;
-      a.ids[s] = whole ? static_cast<uint32_t>(id->value->integers[s]) : static_cast<uint64_t>(number);
+      a.ids[s] = whole ? static_cast<uint32_t>(id->value->integers[c]) : static_cast<uint64_t>(number);
     }
     out_.has_ids = true;
-    if (!high || high->value->size() != a.ids.size() || high->value->kind != RibOperand::Kind::kIntegers)
+    if (!high || high->value->size() != layout_.points.size() ||
+        high->value->kind != RibOperand::Kind::kIntegers)
       return;
     for (size_t s = 0; s < a.ids.size(); ++s)
-      a.ids[s] |= static_cast<uint64_t>(static_cast<uint32_t>(high->value->integers[s])) << 32;
+      a.ids[s] |= static_cast<uint64_t>(static_cast<uint32_t>(high->value->integers[curve_of_[s]])) << 32;
+  }
+
+  /// The means of the channels of Os.
+  static StrandAttribute opacity_of(const StrandAttribute& channels) {
+    StrandAttribute opacity{"opacity", channels.frequency, 1, {}};
+    const auto n = static_cast<size_t>(channels.components);
+    for (size_t i = 0; i + n <= channels.values.size(); i += n) {
+      float sum = 0;
+      for (size_t k = 0; k < n; ++k) sum += channels.values[i + k];
+      opacity.values.push_back(sum / static_cast<float>(n));
+    }
+    return opacity;
   }
 
   void add_attribute(const RibNamedValue& p) {
     for (const char* known : {"P", "width", "constantwidth", "id", "id_high"}) {
       if (p.name == known) return;
     }
+    out_.ribbons |= p.name == "N";
     if (!p.value->is_number()) {
       out_.unsupported.push_back(p.name);
       return;
     }
-    check_size(request_, p, layout_.values(p.declaration.frequency));
+    if (std::string why = wrong_size(p, layout_); !why.empty()) {
+      out_.misfits.push_back(std::move(why));
+      return;
+    }
     StrandArrays& a = out_.strands;
     if (p.name == "st" && p.declaration.components == 2) {
       const std::vector<float> st = per_point(p, false);
@@ -312,13 +371,12 @@ class CurveReader {
     } else {
       attribute.values = per_point(p, false);
     }
-    const auto same = [&](const StrandAttribute& other) { return other.name == attribute.name; };
-    if (std::none_of(a.attributes.begin(), a.attributes.end(), same))
-      a.attributes.push_back(std::move(attribute));
+    if (p.name == "Os") attribute = opacity_of(attribute);
+    if (!has_attribute(attribute.name)) a.attributes.push_back(std::move(attribute));
   }
 
   RibStatement& request_;
-  const RibCurveLayout layout_;
+  RibCurveLayout layout_;
   std::vector<RibNamedValue> parameters_;        // of the first sample
   std::vector<std::vector<RibNamedValue>> all_;  // of all samples
   std::vector<std::span<const float>> keys_;     // positions

@@ -8,7 +8,7 @@
 #include "base/nearest_name.h"
 #include "rib/scene/rib_curve_reader.h"
 #include "rib/scene/rib_interpreter.h"
-#include "rib/scene/rib_mesh_reader.h"
+#include "rib/scene/rib_surfaces.h"
 
 namespace pelage {
 namespace {
@@ -43,9 +43,11 @@ std::string RibInterpreter::unique_name(const char* kind, std::string wanted) {
   }
   if (wanted.empty()) wanted = "unnamed";
   if (wanted.size() > 100) wanted.resize(100);
+  const std::string prefix = std::string(kind) + " ";
   std::string name = wanted;
-  for (int n = 2; !names_.insert(std::string(kind) + " " + name).second; ++n)
-    name = wanted + "." + std::to_string(n);
+  // Numbers go on where they were, because thousands of lights may have the same name.
+  for (int& n = next_numbers_[prefix + wanted]; !names_.insert(prefix + name).second;)
+    name = wanted + "." + std::to_string(n++ + 2);
   return name;
 }
 
@@ -55,46 +57,70 @@ void RibInterpreter::count_points(const RibStatement& request, size_t points) {
     request.fail(fmt::format("the file has more than {} points", options_.max_points));
 }
 
-std::string RibInterpreter::material_key(bool fibre, bool strand_color) const {
+std::string RibInterpreter::material_key(const Look& look) const {
   // A shader that Pelage wrote has its own colour.
   const bool whole = now_.surface && now_.surface->find("pelage");
   const Rgb color = whole ? Rgb(1) : now_.color;
-  return fmt::format("{} {} {} {} {}\n", fibre, strand_color && !whole, color.x, color.y, color.z) +
+  return fmt::format("{} {} {} {} {} {} {}\n", look.fibre, look.strand_color && !whole,
+                     look.strand_opacity && !whole, color.x, color.y, color.z, whole ? 1 : now_.opacity) +
          (now_.surface ? content_of(*now_.surface) : "");
 }
 
-size_t RibInterpreter::material(bool fibre, bool strand_color) {
-  const auto [known, is_new] =
-      materials_.try_emplace(material_key(fibre, strand_color), scene_.materials.size());
+size_t RibInterpreter::material(const Look& look) {
+  const auto [known, is_new] = materials_.try_emplace(material_key(look), scene_.materials.size());
   if (is_new) {
     RibMaterial material;
-    material.name = unique_name("material", name_of(now_.surface.get(), fibre));
+    material.name = unique_name("material", name_of(now_.surface.get(), look.fibre));
     material.shader = now_.surface;
     material.color = now_.color;
-    material.fibre = fibre;
-    material.strand_color = strand_color;
+    material.fibre = look.fibre;
+    material.strand_color = look.strand_color;
+    material.opacity = now_.opacity;
+    material.strand_opacity = look.strand_opacity;
     scene_.materials.push_back(std::move(material));
   }
   return known->second;
 }
 
+bool RibInterpreter::is_flattened(const SourcePosition& position, const RibTransform& transform) {
+  if (is_usable(transform)) return false;
+  warn_once("flattened", position, "things whose transform has no inverse are dropped");
+  return true;
+}
+
+void RibInterpreter::warn_of_curves(const RibStatement& request, const RibCurveSet& set) {
+  warn_undeclared(request, set.undeclared);
+  const SourcePosition& at = request.position();
+  for (const std::string& name : set.unsupported)
+    warn_once("strings " + name, at, "parameter " + quote(name) + " of Curves consists of strings; skipped");
+  for (const std::string& why : set.misfits) warn_once("misfit " + why, at, why + "; skipped");
+  if (!set.has_width)
+    warn_once("width", at, "curves without \"width\" or \"constantwidth\" have the width 1");
+  if (set.negative_widths) warn_once("negative width", at, "negative widths of curves count as 0");
+  if (set.ribbons)
+    warn_once("ribbons", at,
+              "curves with normals \"N\" are flat ribbons; Pelage renders them as round strands");
+  warn_of_visibility(request);
+  drop("dropped curves whose points do not form whole segments", at, set.unusable);
+}
+
+void RibInterpreter::warn_of_visibility(const RibStatement& request) {
+  if (!now_.seen_by_camera)
+    warn_once("camera visibility", request.position(),
+              "Attribute \"visibility\" \"camera\" 0 hides lights only; this is visible");
+}
+
 void RibInterpreter::curves(const Call& call) {
   RibCurveSet set = read_curves(call.samples, context_.declarations, now_.basis);
   RibStatement& request = call.request();
-  for (const std::string& name : set.undeclared)
-    warn_once("undeclared " + name, request.position(),
-              "parameter " + quote(name) + " of Curves has no declared type; skipped");
-  for (const std::string& name : set.unsupported)
-    warn_once("strings " + name, request.position(),
-              "parameter " + quote(name) + " of Curves consists of strings; skipped");
-  if (!set.has_width)
-    warn_once("width", request.position(), "curves without \"width\" or \"constantwidth\" have the width 1");
+  warn_of_curves(request, set);
+  if (set.strands.ids.empty() || is_flattened(request.position(), now_.to_world)) return;
   count_points(request, set.strands.points.size() / 4);
-  const size_t own_material = material(true, set.has_color);
+  const Look look{true, set.has_color, set.has_opacity};
+  const size_t own_material = material(look);
   const std::string name = now_.name.empty() ? "hair" : now_.name;
   const Rgb& tint = now_.tint;
-  const std::string key =
-      fmt::format("{}\n{} {} {} {}", material_key(true, set.has_color), tint.x, tint.y, tint.z, name);
+  const std::string key = fmt::format("{}\n{} {} {} {}", material_key(look), tint.x, tint.y, tint.z, name);
   const auto [coat, is_new] = coats_.try_emplace(key, scene_.coats.size());
   if (is_new) {
     scene_.coats.emplace_back();
@@ -110,9 +136,7 @@ void RibInterpreter::curves(const Call& call) {
   size_t dropped = 0;
   const StrandArrays strands =
       to_world(std::move(set.strands), call.times, now_.to_world, context_.shutter, dropped);
-  if (dropped > 0)
-    warn_once("dropped", request.position(),
-              "strands without extent, or with points that are not finite, are dropped");
+  drop("dropped strands without extent, or with points that are not finite", request.position(), dropped);
   batches_.add(coat->second, strands);
 }
 
@@ -129,35 +153,70 @@ void RibInterpreter::keep_batch(size_t coat, Strands batch) {
 }
 
 void RibInterpreter::mesh(const Call& call) {
-  RibStatement& request = call.request();
-  if (request.name == "Patch") {
-    const bool bilinear = !request.arguments.empty() && !request.arguments[0].is_number() &&
-                          request.arguments[0].strings[0] == "bilinear";
-    if (!bilinear || !now_.area) {
-      skipped(request);
-      return;
-    }
-    request.name = "Polygon";
-    request.arguments.erase(request.arguments.begin());
-  }
   RibMesh mesh = read_mesh(call.samples, context_.declarations);
-  count_points(request, mesh.samples.size() * (mesh.cage.positions.size() + mesh.cage.face_vertices.size()));
+  if (now_.bilinear && mesh.scheme == SubdivisionScheme::kNone) mesh.scheme = SubdivisionScheme::kBilinear;
+  add_mesh(call, std::move(mesh));
+}
+
+void RibInterpreter::patch(const Call& call) {
+  RibStatement& request = call.request();
+  const auto& a = request.arguments;
+  if (now_.area && request.name == "Patch" && !a.empty() && !a[0].is_number() &&
+      a[0].strings[0] == "bilinear") {
+    // The corners of a patch are in rows.
+    RibMesh mesh = read_patches(call.samples.first(1), context_.declarations, now_.basis_u, now_.basis);
+    if (mesh.cage.positions.size() == 4) std::swap(mesh.cage.positions[2], mesh.cage.positions[3]);
+    add_mesh(call, std::move(mesh));
+    return;
+  }
+  add_mesh(call, read_patches(call.samples, context_.declarations, now_.basis_u, now_.basis));
+}
+
+void RibInterpreter::quadric(const Call& call) {
+  RibStatement& request = call.request();
+  if (!now_.area || request.name != "Sphere") {
+    add_mesh(call, read_quadric(call.samples));
+    return;
+  }
+  if (request.arguments.empty() || !request.arguments[0].is_number() || request.arguments[0].size() == 0)
+    request.fail("expected a radius");
+  const float radius = std::abs(request.arguments[0].number(0));
+  if (!(radius > 0 && radius < 1e18f)) request.fail("the radius must be greater than 0");
+  area_light(RibLight::Shape::kSphere, radius, {});
+}
+
+void RibInterpreter::add_mesh(const Call& call, RibMesh mesh) {
+  RibStatement& request = call.request();
   for (const std::string& what : mesh.ignored)
     warn_once("mesh " + what, request.position(), what + ": not supported; ignored");
+  if (mesh.cage.face_sizes.empty()) {
+    warn_once("no faces", request.position(), request.name + ": a mesh without faces is skipped");
+    return;
+  }
+  if (is_flattened(request.position(), now_.to_world)) return;
+  count_points(request, mesh.samples.size() * (mesh.cage.positions.size() + mesh.cage.face_vertices.size()));
   if (now_.area) {
     std::vector<V3f> corners;
     const M44f matrix = now_.to_world.at(0);
+    const bool one_face = mesh.cage.face_count() == 1;
     for (const V3f& p : mesh.cage.positions) corners.push_back(p * matrix);
-    area_light(RibLight::Shape::kQuad, 0, std::move(corners));
+    area_light(one_face ? RibLight::Shape::kPolygon : RibLight::Shape::kMesh, 0, std::move(corners));
     return;
   }
-  const size_t own_material = material(false, false);
+  warn_of_visibility(request);
+  if (now_.opacity == 0) {
+    warn_once("invisible mesh", request.position(), "meshes with an Opacity of 0 are skipped");
+    return;
+  }
+  if (now_.opacity < 1)
+    warn_once("opaque mesh", request.position(), "Opacity has no effect on meshes, only on curves");
+  const size_t own_material = material(Look{});
   if (!options_.geometry) return;
   RibSkin skin;
   skin.name = unique_name("mesh", now_.name.empty() ? "mesh" : now_.name);
   skin.material = own_material;
   skin.tint = now_.tint;
-  mesh.cage.chaikin_creases = now_.chaikin_creases;
+  mesh.cage.chaikin_creases |= now_.chaikin_creases;
   skin.position = request.position();
   skin.scheme = mesh.scheme;
   skin.boundary = mesh.boundary;
@@ -184,30 +243,6 @@ void RibInterpreter::mesh(const Call& call) {
   if (options_.reserve) options_.reserve(kept_bytes_);
   skin.cage = std::move(mesh.cage);
   scene_.skins.push_back(std::move(skin));
-}
-
-void RibInterpreter::sphere(const Call& call) {
-  RibStatement& request = call.request();
-  if (!now_.area) {
-    skipped(request);
-    return;
-  }
-  if (request.arguments.empty() || !request.arguments[0].is_number() || request.arguments[0].size() == 0)
-    request.fail("expected a radius");
-  const float radius = std::abs(request.arguments[0].number(0));
-  if (!(radius > 0 && radius < 1e18f)) request.fail("the radius must be greater than 0");
-  area_light(RibLight::Shape::kSphere, radius, {});
-}
-
-void RibInterpreter::area_light(RibLight::Shape shape, float radius, std::vector<V3f> corners) {
-  RibLight light;
-  light.shader = now_.area;
-  light.name = light_name(*now_.area);
-  light.to_world = now_.to_world;
-  light.shape = shape;
-  light.radius = radius;
-  light.corners = std::move(corners);
-  scene_.lights.push_back(std::move(light));
 }
 
 }  // namespace pelage

@@ -70,8 +70,24 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"PointsPolygons", &I::mesh},
       {"PointsGeneralPolygons", &I::mesh},
       {"Polygon", &I::mesh},
-      {"Patch", &I::mesh},
-      {"Sphere", &I::sphere},
+      {"Patch", &I::patch},
+      {"Sphere", &I::quadric},
+      {"Bxdf", &I::bxdf},
+      {"Pattern", &I::pattern},
+      {"Light", &I::ris_light},
+      {"Opacity", &I::opacity},
+      {"Camera", &I::named_camera},
+      {"Hider", &I::hider},
+      {"HierarchicalSubdivisionMesh", &I::mesh},
+      {"GeneralPolygon", &I::mesh},
+      {"PatchMesh", &I::patch},
+      {"NuPatch", &I::patch},
+      {"Cone", &I::quadric},
+      {"Cylinder", &I::quadric},
+      {"Disk", &I::quadric},
+      {"Hyperboloid", &I::quadric},
+      {"Paraboloid", &I::quadric},
+      {"Torus", &I::quadric},
       {"ReadArchive", &I::read_archive},
       {"Procedural", &I::procedural},
       {"Procedural2", &I::procedural},
@@ -83,7 +99,9 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"ShadingRate", &I::ignore},
       {"ShadingInterpolation", &I::ignore},
       {"GeometricApproximation", &I::ignore},
-      {"Hider", &I::ignore},
+      {"Integrator", &I::ignore},
+      {"DisplayChannel", &I::ignore},
+      {"PixelFilter", &I::ignore},
       {"PixelVariance", &I::ignore},
       {"Quantize", &I::ignore},
       {"Bound", &I::ignore},
@@ -102,6 +120,20 @@ void RibInterpreter::warn_once(const std::string& kind, const SourcePosition& po
 void RibInterpreter::skipped(const RibStatement& request) {
   warn_once(request.name, request.position(),
             "request " + quote(request.name) + " is not supported; skipped");
+}
+
+void RibInterpreter::drop(const std::string& what, const SourcePosition& position, size_t count) {
+  if (count == 0) return;
+  Dropped& dropped = dropped_[what];
+  if (dropped.count == 0) dropped.first = position;
+  dropped.count += count;
+}
+
+void RibInterpreter::warn_undeclared(const RibStatement& request,
+                                     const std::vector<std::string>& parameters) {
+  for (const std::string& parameter : parameters)
+    warn_once("undeclared " + parameter, request.position(),
+              "parameter " + quote(parameter) + " of " + request.name + " has no known type; skipped");
 }
 
 void RibInterpreter::read_file(const std::filesystem::path& path, const RibStatement* named_at) {
@@ -190,6 +222,8 @@ void RibInterpreter::finish() {
                 open.name + "Begin has no " + open.name + "End");
   }
   batches_.finish();
+  for (const auto& [what, dropped] : dropped_)
+    scene_.warnings.push_back({dropped.first, fmt::format("{}: {}", what, dropped.count)});
 }
 
 RibScene read_rib(const std::filesystem::path& path, const RibReadOptions& options) {
@@ -200,6 +234,13 @@ RibScene read_rib(const std::filesystem::path& path, const RibReadOptions& optio
   RibInterpreter interpreter(options, std::move(context));
   interpreter.read_file(path, nullptr);
   interpreter.finish();
+  if (interpreter.is_shadow_pass()) {
+    RibReadOptions with_shadows = options;
+    with_shadows.shadow_passes = true;
+    RibScene scene = read_rib(path, with_shadows);
+    scene.shadow_pass = true;
+    return scene;
+  }
   return std::move(interpreter.scene());
 }
 

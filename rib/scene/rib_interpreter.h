@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rib/scene/rib_batches.h"
+#include "rib/scene/rib_mesh_reader.h"
 #include "rib/scene/rib_programs.h"
 #include "rib/scene/rib_reading.h"
 #include "rib/scene/rib_scene.h"
@@ -19,15 +20,22 @@
 
 namespace pelage {
 
+/// The nodes of the request Pattern, by their handles.
+using RibPatterns = std::map<std::string, std::shared_ptr<const RibShader>>;
+
 /// What AttributeBegin saves: the transform and the attributes [RISPEC 3.2, graphics state].
 struct RibAttributes {
   RibTransform to_world;  ///< before WorldBegin: to camera space
   Rgb color{1};
+  float opacity = 1;             ///< mean of the channels of Opacity
   Rgb tint{1};                   ///< Attribute "pelage" "tint"
   bool chaikin_creases = false;  ///< Attribute "pelage" "chaikin"
-  std::shared_ptr<const RibShader> surface;
-  RibBasis basis = *RibBasis::named("bezier");
-  std::string name;                       ///< Attribute "identifier" "name"
+  bool bilinear = false;         ///< Attribute "pelage" "scheme" "bilinear": polygons are bilinear surfaces
+  bool seen_by_camera = true;    ///< Attribute "visibility" "camera"
+  std::shared_ptr<const RibShader> surface;  ///< Surface or Bxdf
+  std::shared_ptr<const RibPatterns> patterns = std::make_shared<RibPatterns>();
+  RibBasis basis_u = *RibBasis::named("bezier"), basis = basis_u;  ///< curves have the second one, for v
+  std::string name;                                                ///< Attribute "identifier" "name"
   std::shared_ptr<const RibShader> area;  ///< AreaLightSource; null for things that are not lights
 };
 
@@ -38,7 +46,8 @@ struct RibContext {
   std::map<std::string, RibTransform> spaces;
   std::vector<std::string> search_path;   ///< of archives
   std::vector<std::string> program_path;  ///< of procedurals
-  std::filesystem::path folder;           ///< of the file that was given first
+  std::vector<std::string> texture_path;
+  std::filesystem::path folder;  ///< of the file that was given first
   RibShutter shutter;
   RibTransform world;                        ///< from the world of the file to the world of the scene
   std::map<std::string, uint64_t> next_ids;  ///< of strands without ids, by coat
@@ -54,6 +63,8 @@ struct RibDeferredArchive {
   /// Reads one batch again. Throws Error (kInput) if the file has changed.
   Strands read(size_t batch, const StrandCounts& expected) const;
 };
+
+struct RibCurveSet;
 
 /// Returns the sizes of a batch.
 StrandCounts rib_counts(const Strands& strands);
@@ -71,6 +82,8 @@ class RibInterpreter {
   /// Ends the frame: completes batches, and checks that all blocks are closed.
   void finish();
   RibScene& scene() { return scene_; }
+  /// Returns whether all worlds were skipped because they draw shadow maps.
+  bool is_shadow_pass() const { return !world_done_ && skipped_shadows_; }
 
   /// Deferred archives: calls `take` instead of keeping strands.
   void set_take(RibBatches::Take take) {
@@ -101,6 +114,9 @@ class RibInterpreter {
   bool skip(const RibStatement& request);
   void dispatch(const Call& call);
   void warn_once(const std::string& kind, const SourcePosition& position, const std::string& message);
+  /// Counts things that are dropped; finish() warns of each kind once, with its count.
+  void drop(const std::string& what, const SourcePosition& position, size_t count);
+  void warn_undeclared(const RibStatement& request, const std::vector<std::string>& parameters);
   void skipped(const RibStatement& request);
   void keep(const RibStatement& request, std::vector<RibStatement>& list);
   void allow_request(const RibStatement& request, size_t bytes);
@@ -109,6 +125,7 @@ class RibInterpreter {
   void begin_block(const Call& call);
   void end_block(const Call& call);
   void begin_frame(const Call& call);
+  void end_frame();
   void begin_world(const Call& call);
   void begin_motion(const Call& call);
   void end_motion(const Call& call);
@@ -121,17 +138,37 @@ class RibInterpreter {
   void coordinate_system(const Call& call);
   void use_coordinate_system(const Call& call);
   void color(const Call& call);
+  void opacity(const Call& call);
   void surface(const Call& call);
   void basis(const Call& call);
+  static RibBasis basis_of(const RibStatement& request, const RibOperand& basis, const RibOperand& step);
   void attribute(const Call& call);
   void declare(const Call& call);
-  void light_source(const Call& call);
-  void area_light_source(const Call& call);
   std::shared_ptr<const RibShader> shader_of(RibStatement& request, size_t parameters);
   std::vector<RibSetting> settings_of(RibStatement& request, size_t parameters);
 
+  // nodes of RIS (rib_node_requests.cpp)
+  void bxdf(const Call& call);
+  void pattern(const Call& call);
+  std::optional<RibSetting> value_of(const RibSetting& reference, int depth = 0) const;
+
+  // lights (rib_light_requests.cpp)
+  void light_source(const Call& call);
+  void area_light_source(const Call& call);
+  void ris_light(const Call& call);
+  void add_light(RibLight light);
+  void find_map(RibLight& light, const RibStatement& request);
+  void move_lights_to_world();
+
   // camera and options (rib_camera_requests.cpp)
   void projection(const Call& call);
+  void named_camera(const Call& call);
+  void set_fov(const RibSetting& setting);
+  void set_search_path(const RibSetting& setting);
+  void hider(const Call& call);
+  void screen_window(const RibStatement& request, const std::vector<float>& numbers);
+  void format(const RibStatement& request, const std::vector<float>& numbers);
+  void shutter(const RibStatement& request, float open, float close);
   void camera_numbers(const Call& call);
   void display(const Call& call);
   void option(const Call& call);
@@ -139,10 +176,20 @@ class RibInterpreter {
   // geometry (rib_geometry_requests.cpp)
   void curves(const Call& call);
   void mesh(const Call& call);
-  void sphere(const Call& call);
+  void patch(const Call& call);
+  void quadric(const Call& call);
+  void warn_of_curves(const RibStatement& request, const RibCurveSet& set);
+  void warn_of_visibility(const RibStatement& request);
+  void add_mesh(const Call& call, RibMesh mesh);
+  /// Whether a transform has no inverse, such as Scale 0 0 0, which hides things. Warns of it once.
+  bool is_flattened(const SourcePosition& position, const RibTransform& transform);
   void area_light(RibLight::Shape shape, float radius, std::vector<V3f> corners);
-  std::string material_key(bool fibre, bool strand_color) const;
-  size_t material(bool fibre, bool strand_color);
+  /// What a material is on.
+  struct Look {
+    bool fibre = false, strand_color = false, strand_opacity = false;
+  };
+  std::string material_key(const Look& look) const;
+  size_t material(const Look& look);
   void keep_batch(size_t coat, Strands batch);
   void count_points(const RibStatement& request, size_t points);
   std::string unique_name(const char* kind, std::string wanted);
@@ -153,7 +200,11 @@ class RibInterpreter {
   // archives and procedurals (rib_archive_requests.cpp)
   void read_archive(const Call& call);
   void procedural(const Call& call);
-  std::filesystem::path find_file(const std::string& name, const RibStatement& request) const;
+  /// Returns a file beside the file of the request, beside the first file, or in `folders`; nullopt, after a
+  /// warning, if there is none.
+  std::optional<std::filesystem::path> find_file(const std::string& name,
+                                                 const std::vector<std::string>& folders,
+                                                 const RibStatement& request);
   void defer_archive(const std::filesystem::path& path, const RibStatement& request,
                      std::shared_ptr<const RibReply> reply);
 
@@ -203,10 +254,18 @@ class RibInterpreter {
   size_t largest_request_ = 0;            // bytes of the arguments, if more than 1 MiB
   size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, inner_archives_ = 0, statements_ = 0;
 
-  RibCamera camera_;
+  RibCamera camera_, before_frame_;
   bool in_deferred_ = false, stopped_ = false;
   std::map<std::string, size_t> materials_, coats_;  // by content
   std::set<std::string> names_, warned_;
+  std::map<std::string, int> next_numbers_;  // of unique_name()
+  struct Dropped {
+    SourcePosition first;
+    size_t count = 0;
+  };
+  std::map<std::string, Dropped> dropped_;
+  std::optional<RibTransform> named_camera_;  // the request Camera
+  bool skipped_shadows_ = false;              // some world draws a shadow map
 };
 
 }  // namespace pelage

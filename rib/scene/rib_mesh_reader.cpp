@@ -29,17 +29,27 @@ class MeshReader {
 
   RibMesh read() {
     size_t parameters = 0;
-    if (request_.name == "SubdivisionMesh") {
+    if (request_.name.ends_with("SubdivisionMesh")) {
       parameters = read_subdivision();
     } else if (request_.name == "PointsGeneralPolygons") {
-      read_loops();
+      read_loops(integers(request_, 0), integers(request_, 1), integers(request_, 2));
       parameters = 3;
+    } else if (request_.name == "GeneralPolygon") {
+      const std::vector<int64_t>& sizes = integers(request_, 0);
+      std::vector<int64_t> vertices;
+      for (const int64_t size : sizes) {
+        for (int64_t i = 0; i < size && vertices.size() < kMaxPolygon; ++i)
+          vertices.push_back(static_cast<int64_t>(vertices.size()));
+      }
+      read_loops({static_cast<int64_t>(sizes.size())}, sizes, vertices);
+      parameters = 1;
     } else if (request_.name == "PointsPolygons") {
       add_faces(integers(request_, 0), integers(request_, 1));
       parameters = 2;
     }
     std::vector<std::string> undeclared;
     parameters_ = declarations_.parameters(request_, parameters, undeclared);
+    project_points(request_, parameters_);
     mesh_.samples.push_back(positions(request_, parameters_, "P"));
     ControlMesh& cage = mesh_.cage;
     cage.positions = mesh_.samples.front();
@@ -48,10 +58,12 @@ class MeshReader {
       cage.face_vertices.resize(cage.positions.size());
       std::iota(cage.face_vertices.begin(), cage.face_vertices.end(), 0u);
     }
+    if (find_parameter(parameters_, "Cs")) mesh_.ignored.emplace_back("parameter 'Cs' of a mesh");
     add_rest();
     check_faces();
     add_texture_coordinates();
     add_tags();
+    drop_flat_faces();
     return std::move(mesh_);
   }
 
@@ -91,7 +103,7 @@ class MeshReader {
     // Tags are optional: a string here is the first parameter.
     const auto& a = request_.arguments;
     const bool tags = a.size() > 3 && a[3].is_array;
-    return tags ? 7 : 3;
+    return !tags ? 3 : hierarchical() ? 8 : 7;
   }
 
   // Other renderers may have "Pref" of other classes for their shaders; these are not needed here.
@@ -106,17 +118,16 @@ class MeshReader {
   }
 
   // A polygon with holes has several loops; the first one is its outline.
-  void read_loops() {
-    const std::vector<int64_t>&loops = integers(request_, 0), &sizes = integers(request_, 1),
-          &vertices = integers(request_, 2);
+  void read_loops(const std::vector<int64_t>& loops, const std::vector<int64_t>& sizes,
+                  const std::vector<int64_t>& vertices) {
     std::vector<int64_t> outer_sizes, outer_vertices;
     size_t loop = 0, vertex = 0;
     for (const int64_t count : loops) {
       if (count < 1 || static_cast<uint64_t>(count) > sizes.size() - loop)
-        request_.fail(request_.arguments[1], "the numbers of loops and of their vertices do not agree");
+        request_.fail("the numbers of loops and of their vertices do not agree");
       for (int64_t i = 0; i < count; ++i, ++loop) {
         if (sizes[loop] < 0 || static_cast<uint64_t>(sizes[loop]) > vertices.size() - vertex)
-          request_.fail(request_.arguments[2], "there are fewer vertices than the loops need");
+          request_.fail("there are fewer vertices than the loops need");
         const auto begin = vertices.begin() + static_cast<ptrdiff_t>(vertex);
         vertex += static_cast<size_t>(sizes[loop]);
         if (i > 0) {
@@ -136,7 +147,7 @@ class MeshReader {
   void add_faces(const std::vector<int64_t>& sizes, const std::vector<int64_t>& vertices) {
     uint64_t corners = 0;
     for (const int64_t size : sizes) {
-      if (size < 0 || size > 1'000'000) request_.fail(fmt::format("a face has {} vertices", size));
+      if (size < 0 || size > kMaxPolygon) request_.fail(fmt::format("a face has {} vertices", size));
       mesh_.cage.face_sizes.push_back(static_cast<uint32_t>(size));
       corners += static_cast<uint64_t>(size);
     }
@@ -162,10 +173,42 @@ class MeshReader {
           request_.fail(fmt::format("face {} has vertex {}, but there are only {} points", face, vertex,
                                     cage.positions.size()));
       }
-      if (distinct_corners(vertices) < 3)
-        request_.fail(fmt::format("face {} has fewer than 3 different vertices", face));
     }
-    if (cage.face_sizes.empty()) request_.fail("the mesh has no faces");
+  }
+
+  /// Faces with fewer than 3 different vertices, which exporters write for edges and collapsed corners.
+  void drop_flat_faces() {
+    ControlMesh& cage = mesh_.cage;
+    const auto is_flat = [](const ControlMesh& mesh, size_t first, uint32_t size) {
+      return distinct_corners(std::span(mesh.face_vertices).subspan(first, size)) < 3;
+    };
+    bool any = false;
+    size_t first = 0;
+    for (const uint32_t size : cage.face_sizes) any |= is_flat(cage, first, size), first += size;
+    if (!any) return;
+    mesh_.ignored.emplace_back("faces with fewer than 3 different vertices");
+    const ControlMesh before = cage;
+    std::vector<uint32_t> number;  // of each face that is kept, among those kept; kDropped for the others
+    cage.face_sizes.clear(), cage.face_vertices.clear(), cage.face_uv.clear(), cage.holes.clear();
+    first = 0;
+    for (const uint32_t size : before.face_sizes) {
+      const auto begin = static_cast<ptrdiff_t>(first), end = begin + static_cast<ptrdiff_t>(size);
+      const bool flat = is_flat(before, first, size);
+      first += size;
+      if (flat) {
+        number.push_back(kDropped);
+        continue;
+      }
+      number.push_back(static_cast<uint32_t>(cage.face_sizes.size()));
+      cage.face_sizes.push_back(size);
+      cage.face_vertices.insert(cage.face_vertices.end(), before.face_vertices.begin() + begin,
+                                before.face_vertices.begin() + end);
+      if (!before.face_uv.empty())
+        cage.face_uv.insert(cage.face_uv.end(), before.face_uv.begin() + begin, before.face_uv.begin() + end);
+    }
+    for (const uint32_t hole : before.holes) {
+      if (number[hole] != kDropped) cage.holes.push_back(number[hole]);
+    }
   }
 
   void add_texture_coordinates() {
@@ -187,9 +230,10 @@ class MeshReader {
     const size_t values =
         per_corner ? std::max(corners_in_file_, cage.face_vertices.size()) : cage.positions.size();
     for (const RibNamedValue* p : {&s, &t}) {
-      if (p->value->size() != values * stride)
-        request_.fail(*p->value, fmt::format("parameter {} needs {} numbers for this mesh, got {}",
-                                             quote(p->name), values * stride, p->value->size()));
+      if (p->value->size() == values * stride) continue;
+      mesh_.ignored.push_back(fmt::format("parameter {} with {} numbers for a mesh that needs {}",
+                                          quote(p->name), p->value->size(), values * stride));
+      return;
     }
     for (size_t i = 0; i < values; ++i) {
       const V2f uv(s.value->number(stride * i), t.value->number(stride * i + offset));
@@ -206,24 +250,35 @@ class MeshReader {
   void add_tags() {
     const auto& a = request_.arguments;
     if (mesh_.scheme == SubdivisionScheme::kNone || a.size() <= 3 || !a[3].is_array) return;
-    if (a.size() < 7) request_.fail("tags need four arrays: names, counts, integers and floats");
+    const size_t kinds = hierarchical() ? 3 : 2;  // integers, floats and strings
+    if (a.size() < 5 + kinds)
+      request_.fail("tags need arrays of names, counts, integers and floats" +
+                    std::string(hierarchical() ? ", and strings" : ""));
     const std::vector<int64_t>&counts = integers(request_, 4), &whole = integers(request_, 5);
     const RibOperand& floats = a[6];
     if (!floats.is_number()) request_.fail(floats, "expected an array of floats, got " + floats.describe());
-    size_t i = 0, f = 0;
+    size_t i = 0, f = 0, t = 0;
     for (size_t tag = 0; tag < a[3].size(); ++tag) {
       if (a[3].is_number()) request_.fail(a[3], "expected the names of tags");
-      if (counts.size() < 2 * tag + 2) request_.fail(a[4], "each tag needs two counts");
-      const int64_t ni = counts[2 * tag], nf = counts[2 * tag + 1];
-      if (ni < 0 || nf < 0 || static_cast<uint64_t>(ni) > whole.size() - i ||
-          static_cast<uint64_t>(nf) > floats.size() - f)
+      if (counts.size() < kinds * (tag + 1))
+        request_.fail(a[4], fmt::format("each tag needs {} counts", kinds));
+      const int64_t ni = counts[kinds * tag], nf = counts[kinds * tag + 1],
+                    nt = hierarchical() ? counts[kinds * tag + 2] : 0;
+      if (ni < 0 || nf < 0 || nt < 0 || static_cast<uint64_t>(ni) > whole.size() - i ||
+          static_cast<uint64_t>(nf) > floats.size() - f ||
+          static_cast<uint64_t>(nt) > (nt > 0 ? a[7].strings.size() - t : 0))
         request_.fail(a[4],
                       fmt::format("tag {} has more arguments than are given", quote(a[3].strings[tag])));
       std::vector<float> numbers;
       for (size_t k = 0; k < static_cast<size_t>(nf); ++k) numbers.push_back(floats.number(f + k));
-      add_tag(a[3].strings[tag], std::span(whole).subspan(i, static_cast<size_t>(ni)), numbers);
+      if (a[3].strings[tag] == "creasemethod") {
+        mesh_.cage.chaikin_creases = nt > 0 && a[7].strings[t] == "chaikin";
+      } else {
+        add_tag(a[3].strings[tag], std::span(whole).subspan(i, static_cast<size_t>(ni)), numbers);
+      }
       i += static_cast<size_t>(ni);
       f += static_cast<size_t>(nf);
+      t += static_cast<size_t>(nt);
     }
   }
 
@@ -256,6 +311,10 @@ class MeshReader {
     }
   }
 
+  bool hierarchical() const { return request_.name == "HierarchicalSubdivisionMesh"; }
+
+  static constexpr uint32_t kDropped = ~0u;
+  static constexpr int64_t kMaxPolygon = 1'000'000;  // corners
   RibStatement& request_;
   const RibDeclarations& declarations_;
   std::vector<RibNamedValue> parameters_;
@@ -271,12 +330,13 @@ RibMesh read_mesh(std::span<RibStatement> samples, const RibDeclarations& declar
   for (RibStatement& sample : samples.subspan(1)) {
     std::vector<std::string> undeclared;
     size_t first = 0;  // of the parameters: the first operand that is a single string after the arrays
-    for (size_t i = sample.name == "SubdivisionMesh" ? 1 : 0; i < sample.arguments.size(); ++i) {
+    for (size_t i = sample.name.ends_with("SubdivisionMesh") ? 1 : 0; i < sample.arguments.size(); ++i) {
       first = i;
       if (!sample.arguments[i].is_number() && !sample.arguments[i].is_array) break;
     }
-    mesh.samples.push_back(
-        MeshReader::positions(sample, declarations.parameters(sample, first, undeclared), "P"));
+    std::vector<RibNamedValue> parameters = declarations.parameters(sample, first, undeclared);
+    project_points(sample, parameters);
+    mesh.samples.push_back(MeshReader::positions(sample, parameters, "P"));
     if (mesh.samples.back().size() != mesh.cage.positions.size())
       sample.fail("the meshes of a motion block must have the same number of points");
   }

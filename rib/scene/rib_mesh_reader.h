@@ -21,13 +21,15 @@ struct RibMesh {
   std::vector<std::string> ignored;       ///< tags and parts that are not supported, for warnings
 };
 
-/// Converts the requests SubdivisionMesh, PointsPolygons, PointsGeneralPolygons and Polygon. `samples`: the
-/// same request at each time of a motion block, or a single one. Only "P" of the further samples is read.
-/// Throws Error (kInput) for wrong types and counts, and for indices beyond the points.
+/// Converts the requests SubdivisionMesh, HierarchicalSubdivisionMesh, PointsPolygons, PointsGeneralPolygons,
+/// Polygon and GeneralPolygon. `samples`: the same request at each time of a motion block, or a single one.
+/// Only "P" of the further samples is read. Throws Error (kInput) for wrong types and counts, and for indices
+/// beyond the points.
 ///
 /// Subdivision meshes have the schemes "catmull-clark", "loop" and "bilinear", and the tags crease, corner,
-/// hole and interpolateboundary; without this last tag, all boundary edges and corners are sharp. Polygons
-/// are not subdivided; holes within polygons are ignored. Texture coordinates are "st", or "s" and "t".
+/// hole, creasemethod and interpolateboundary; without this last tag, all boundary edges and corners are
+/// sharp. Polygons are not subdivided; holes within polygons are ignored. Faces with fewer than 3 different
+/// vertices are dropped, so the mesh may have no faces. Texture coordinates are "st", or "s" and "t".
 /// "vertex point Pref" is the mesh at rest.
 RibMesh read_mesh(std::span<RibStatement> samples, const RibDeclarations& declarations);
 

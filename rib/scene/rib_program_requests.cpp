@@ -31,7 +31,7 @@ bool RibInterpreter::is_own_procedural(const std::string& kind, const std::strin
 }
 
 void RibInterpreter::add_own_procedural(const std::string& arguments, const RibStatement& request) {
-  const size_t own_material = material(true, false);
+  const size_t own_material = material(Look{true});
   if (!options_.geometry) return;
   if (scene_.own_procedurals.size() == kMaxProcedurals)
     request.fail(fmt::format("more than {} procedurals of Pelage", kMaxProcedurals));
@@ -46,7 +46,7 @@ float RibInterpreter::detail_of(const Box3f& bound) const {
   const auto [width, height] = camera_.format.value_or(std::pair(640, 480));
   const float whole = static_cast<float>(width) * static_cast<float>(height);
   const M44f to_camera = now_.to_world.at(0) * scene_.camera.to_camera.at(0);
-  const float half = std::tan(camera_.fov * std::numbers::pi_v<float> / 360);
+  const float half = camera_.perspective ? std::tan(camera_.fov * std::numbers::pi_v<float> / 360) : 1;
   const float pixels = 0.5f * static_cast<float>(std::min(width, height)) / half;  // at distance 1
   float min_x = kInfinity, max_x = -kInfinity, min_y = kInfinity, max_y = -kInfinity;
   for (int corner = 0; corner < 8; ++corner) {
@@ -54,10 +54,11 @@ float RibInterpreter::detail_of(const Box3f& bound) const {
                       corner & 4 ? bound.max.z : bound.min.z) *
                   to_camera;
     if (!(p.z > 0)) return whole;
-    min_x = std::min(min_x, pixels * p.x / p.z);
-    max_x = std::max(max_x, pixels * p.x / p.z);
-    min_y = std::min(min_y, pixels * p.y / p.z);
-    max_y = std::max(max_y, pixels * p.y / p.z);
+    const float scale = camera_.perspective ? pixels / p.z : pixels;
+    min_x = std::min(min_x, scale * p.x);
+    max_x = std::max(max_x, scale * p.x);
+    min_y = std::min(min_y, scale * p.y);
+    max_y = std::max(max_y, scale * p.y);
   }
   return (max_x - min_x) * (max_y - min_y);
 }

@@ -23,6 +23,8 @@ struct RibReadOptions {
   /// Whether a file with a camera in a left-handed world is mirrored (z becomes -z), so that a right-handed
   /// camera sees the same picture.
   bool mirror_left_handed = false;
+  /// Whether to read worlds that are drawn into shadow maps; otherwise, they are skipped, with a warning.
+  bool shadow_passes = false;
   size_t max_points = 1'000'000'000;  ///< of all strands and meshes together
   size_t max_inner_archives =
       100'000;  ///< read by archives: 100 small files can double their number 100 times
@@ -35,7 +37,8 @@ struct RibReadOptions {
 
 /// Reads one frame of a RIB file with all files that it reads. Archives of DelayedReadArchive are read too,
 /// to measure their strands, but their strands are not kept. Throws Error (kInput) with file, line and
-/// column. Requests that are not supported are skipped, with one warning per kind of request.
+/// column. Requests that are not supported are skipped, with one warning per kind of request. If all worlds
+/// of the frame draw shadow maps, they are read, and the result is a shadow pass.
 RibScene read_rib(const std::filesystem::path& path, const RibReadOptions& options);
 
 /// Returns the strands of a coat as a procedural, which splits into the batches of the coat.

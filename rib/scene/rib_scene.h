@@ -30,9 +30,9 @@ struct RibSetting {
   std::vector<std::string> strings;
 };
 
-/// A shader of the requests Surface, LightSource and AreaLightSource.
+/// A shader of the requests Surface, Bxdf, Pattern, LightSource, AreaLightSource and Light.
 struct RibShader {
-  std::string name;
+  std::string name;  ///< of its type: "plastic", "PxrMarschnerHair"
   SourcePosition position;
   std::vector<RibSetting> settings;
   const RibSetting* find(std::string_view wanted) const;
@@ -43,19 +43,24 @@ struct RibMaterial {
   std::string name;  ///< unique within a file: the parameter "name" or "__name" of the shader, or its name
   std::shared_ptr<const RibShader> shader;  ///< null without Surface
   Rgb color{1};
-  bool fibre = false;         ///< on curves
-  bool strand_color = false;  ///< the curves have the attribute "color"
+  bool fibre = false;           ///< on curves
+  bool strand_color = false;    ///< the curves have the attribute "color"
+  float opacity = 1;            ///< mean of the channels of Opacity
+  bool strand_opacity = false;  ///< the curves have the attribute "opacity", a factor of `opacity`
 };
 
 /// A light with its transform from light to world space.
 struct RibLight {
-  enum class Shape { kPoint, kSphere, kQuad };
+  enum class Shape { kPoint, kSphere, kPolygon, kMesh };
   std::string name;
   std::shared_ptr<const RibShader> shader;
   RibTransform to_world;
   Shape shape = Shape::kPoint;  ///< the first primitive of an area light; kPoint for the others
   float radius = 1;             ///< of a sphere
-  std::vector<V3f> corners;     ///< four, of a quad, in world space
+  std::vector<V3f> corners;     ///< of a polygon, in world space
+  bool is_ris = false;          ///< stated by the request Light, which has shapes of its own
+  bool visible = false;         ///< whether cameras see the light; only of the request Light
+  std::filesystem::path map;    ///< image of an environment, absolute; empty without one
 };
 
 /// Strands that are read when they are needed: batch `batch` of an archive.
@@ -101,10 +106,10 @@ struct RibSkin {
 
 /// The camera and the picture of one frame.
 struct RibCamera {
-  bool stated = false;     ///< whether the file has a camera: a request Projection or WorldBegin
-  RibTransform to_camera;  ///< world to camera space
-  bool perspective = false;
-  float fov = 90;  ///< degrees
+  bool stated = false;       ///< whether the file has a camera: a request Projection or WorldBegin
+  RibTransform to_camera;    ///< world to camera space
+  bool perspective = false;  ///< false: orthographic, which is the default of RI
+  float fov = 90;            ///< degrees
   std::optional<std::array<float, 4>> screen_window;
   std::optional<V2f> shutter;
   std::optional<V3f> lens;  ///< f-stop, focal length, focal distance
@@ -112,11 +117,13 @@ struct RibCamera {
   std::optional<float> pixel_aspect, frame_aspect;
   std::optional<V2f> pixel_samples;
   std::string display;
+  bool draws_depths = false;  ///< the display is a shadow map
 };
 
 /// Everything that one frame of a RIB file describes, in world space.
 struct RibScene {
-  std::vector<int> frames;  ///< numbers of the requests FrameBegin; empty without any
+  std::vector<int> frames;   ///< numbers of the requests FrameBegin; empty without any
+  bool shadow_pass = false;  ///< the frame draws shadow maps only
   RibCamera camera;
   std::map<std::string, std::vector<RibSetting>> options;  ///< Option "pelage", by the name of the setting
   std::vector<RibMaterial> materials;

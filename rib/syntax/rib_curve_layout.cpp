@@ -64,6 +64,13 @@ size_t RibCurveLayout::values(RibClass frequency) const {
   return total_joints;
 }
 
+void RibCurveLayout::fit_stray_joints(size_t values) {
+  const size_t own = total_joints - unusable * (cubic ? stray_joints : 0);
+  if (!cubic || unusable == 0 || values < own || (values - own) % unusable != 0) return;
+  stray_joints = static_cast<uint32_t>((values - own) / unusable);
+  total_joints = values;
+}
+
 RibCurveLayout read_curve_layout(const RibStatement& request, const RibBasis& basis) {
   const std::vector<RibOperand>& a = request.arguments;
   const auto text = [&](size_t i) { return i < a.size() && !a[i].is_number() && !a[i].is_array; };
@@ -74,21 +81,26 @@ RibCurveLayout read_curve_layout(const RibStatement& request, const RibBasis& ba
   const std::string &type = a[0].strings[0], &wrap = a[2].strings[0];
   if (type != "linear" && type != "cubic")
     request.fail(a[0], "unknown type " + quote(type) + "; expected \"linear\" or \"cubic\"");
-  if (wrap != "periodic" && wrap != "nonperiodic")
-    request.fail(a[2], "unknown wrap mode " + quote(wrap) + "; expected \"periodic\" or \"nonperiodic\"");
+  if (wrap != "periodic" && wrap != "nonperiodic" && wrap != "pinned")
+    request.fail(
+        a[2], "unknown wrap mode " + quote(wrap) + "; expected \"periodic\", \"nonperiodic\" or \"pinned\"");
   layout.cubic = type == "cubic";
   layout.periodic = wrap == "periodic";
+  // Curves of other bases reach their ends anyway.
+  using Kind = RibBasis::Kind;
+  layout.pinned = wrap == "pinned" && layout.cubic && basis.step == 1 &&
+                  (basis.kind == Kind::kBSpline || basis.kind == Kind::kCatmullRom);
   if (a[1].kind == RibOperand::Kind::kFloats && a[1].size() > 0)
     request.fail(a[1], "expected integers, got " + a[1].describe());
   for (const int64_t count : a[1].integers) {
     if (count < 0 || static_cast<uint64_t>(count) + layout.total_points > kMaxRibCount)
       request.fail(a[1], "a curve has " + std::to_string(count) + " points");
     const auto points = static_cast<uint32_t>(count);
-    const uint32_t segments = layout.cubic      ? basis.segments(points, layout.periodic)
+    const bool by_points = !layout.cubic || layout.pinned;
+    const uint32_t segments = !by_points        ? basis.segments(points, layout.periodic)
                               : layout.periodic ? (points < 2 ? 0 : points)
                                                 : std::max(points, 1u) - 1;
-    if (segments == 0)
-      request.fail(a[1], fmt::format("{} points do not form whole segments of a {} curve", count, type));
+    layout.unusable += segments == 0;
     layout.points.push_back(points);
     layout.segments.push_back(segments);
     layout.total_points += points;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -13,12 +14,21 @@
 namespace pelage {
 namespace {
 
-bool is_blank(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+// 0x1a ends text files of DOS.
+bool is_blank(int c) {
+  return c == ' ' || c == 0x1a || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
 bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(int c) { return c >= '0' && c <= '9'; }
 bool starts_number(int c) { return is_digit(c) || c == '-' || c == '+' || c == '.'; }
 // Letters are part of a number too, so that "1x" is one wrong number and not a number and a request.
 bool continues_number(int c) { return starts_number(c) || is_letter(c); }
+
+/// "nan", "inf" and the like, as C libraries print numbers that are not finite.
+bool is_not_finite(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word.starts_with("nan") || word == "inf" || word == "infinity";
+}
 
 uint32_t big_endian(const uint8_t* b) {
   return uint32_t(b[0]) << 24 | uint32_t(b[1]) << 16 | uint32_t(b[2]) << 8 | uint32_t(b[3]);
@@ -49,6 +59,10 @@ RibToken RibLexer::next() {
     const int first = bytes_.peek();
     if (first == RibBytes::kEnd) return RibToken::kEnd;
     if (first < 0x80) return read_text(first);
+    if (first == 0xef && line_ == 1 && column_ == 1) {  // a byte-order mark, which is no code of RIB
+      for (int i = 0; i < 3; ++i) bytes_.take();
+      continue;
+    }
     // Definitions of codes are not tokens.
     if (first < 0xcc || first > 0xce) return read_binary();
     bytes_.take();
@@ -77,6 +91,7 @@ RibToken RibLexer::read_word() {
     if (text_.size() >= 256) fail("the name of a request has more than 256 letters");
     text_ += static_cast<char>(bytes_.take());
   }
+  if (is_not_finite(text_)) fail(quote(text_) + " is not a number");
   return RibToken::kRequest;
 }
 
@@ -86,6 +101,15 @@ RibToken RibLexer::read_number() {
   for (int c = bytes_.peek(); continues_number(c); c = bytes_.peek()) {
     if (length == sizeof digits) fail("a number has more than 128 characters");
     digits[length++] = static_cast<char>(bytes_.take());
+  }
+  // "1.#QNAN" and "-1.#IND" of Windows would otherwise be 1 and a comment that hides the rest of the line.
+  if (length > 1 && digits[length - 1] == '.' && bytes_.peek() == '#') {
+    bytes_.take();
+    std::string word;
+    while (is_letter(bytes_.peek()) && word.size() < 4) word += static_cast<char>(bytes_.take());
+    if (word == "QNAN" || word == "SNAN" || word == "IND" || word == "INF")
+      fail(quote(std::string(digits, length) + "#" + word) + " is not a number");
+    while (bytes_.peek() != '\n' && bytes_.peek() != RibBytes::kEnd) bytes_.take();
   }
   const char* begin = digits;
   const char* end = digits + length;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "base/nearest_name.h"
 
@@ -25,6 +26,7 @@ std::optional<RibClass> class_of(std::string_view word) {
   for (size_t i = 0; i < std::size(kNames); ++i) {
     if (word == kNames[i]) return static_cast<RibClass>(i);
   }
+  if (word == "facevertex") return RibClass::kFaceVarying;  // of 3Delight
   return {};
 }
 
@@ -83,6 +85,8 @@ constexpr Standard kStandard[] = {
     {"endofframe", "uniform integer"},
 };
 
+bool is_whole(float x) { return std::abs(x) < 1e9f && x == std::round(x); }
+
 bool is_integer_type(const RibDeclaration& declaration) {
   return declaration.type == "integer" || declaration.type == "int";
 }
@@ -90,13 +94,19 @@ bool is_integer_type(const RibDeclaration& declaration) {
 // Converts integers to floats where the type demands it, and checks the rest.
 void check_type(RibStatement& request, const std::string& name, const RibDeclaration& declaration,
                 RibOperand& value) {
-  const bool text = declaration.type == "string";
+  const bool text = declaration.type == "string" || declaration.type.starts_with(kRibReference);
   if (text != !value.is_number())
     request.fail(value, "parameter " + quote(name) + " needs " + (text ? "strings" : "numbers") + ", got " +
                             value.describe());
   if (text) return;
   if (is_integer_type(declaration) && value.kind == RibOperand::Kind::kFloats) {
     if (value.size() == 0) return;
+    if (std::all_of(value.floats.begin(), value.floats.end(), is_whole)) {
+      value.integers.assign(value.floats.begin(), value.floats.end());
+      value.floats.clear();
+      value.kind = RibOperand::Kind::kIntegers;
+      return;
+    }
     request.fail(value, "parameter " + quote(name) + " needs integers, got " + value.describe());
   }
   if (is_integer_type(declaration) || value.kind == RibOperand::Kind::kFloats) return;
@@ -122,8 +132,9 @@ std::optional<RibDeclaration> parse_declaration(std::string_view text) {
       words.erase(words.begin());
     }
   }
-  if (words.size() != 1) return {};
-  std::string type(words[0]);
+  const bool reference = words.size() == 2 && words[0] == "reference";
+  if (words.size() != 1 && !reference) return {};
+  std::string type(words.back());
   int count = 1;
   if (const size_t bracket = type.find('['); bracket != std::string::npos) {
     const char *begin = type.data() + bracket + 1, *end = type.data() + type.size();
@@ -132,8 +143,9 @@ std::optional<RibDeclaration> parse_declaration(std::string_view text) {
     type.resize(bracket);
   }
   declaration.components = components_of(type) * count;
-  declaration.type = std::move(type);
   if (declaration.components == 0) return {};
+  declaration.type = reference ? std::string(kRibReference) + type : std::move(type);
+  if (reference) declaration.components = 1;
   return declaration;
 }
 
@@ -170,10 +182,10 @@ std::vector<RibNamedValue> RibDeclarations::parameters(RibStatement& request, si
       parameter.declaration = known->second;
     } else {
       const auto inline_declaration = parse_declaration(std::string_view(text).substr(0, blank + 1));
-      if (!inline_declaration || blank + 1 == text.size())
-        request.fail(token, quote(text) +
-                                " does not declare a parameter; expected a class, a type and a "
-                                "name, such as \"varying float width\"");
+      if (!inline_declaration || blank + 1 == text.size()) {
+        undeclared.push_back(text);
+        continue;
+      }
       parameter.declaration = *inline_declaration;
       parameter.name = text.substr(blank + 1);
     }
@@ -183,6 +195,24 @@ std::vector<RibNamedValue> RibDeclarations::parameters(RibStatement& request, si
     parameters.push_back(std::move(parameter));
   }
   return parameters;
+}
+
+void project_points(RibStatement& request, std::vector<RibNamedValue>& parameters) {
+  for (RibNamedValue& p : parameters) {
+    if (p.name != "Pw" || p.declaration.components != 4 || find_parameter(parameters, "P")) continue;
+    for (RibOperand& operand : request.arguments) {
+      if (&operand != p.value) continue;
+      std::vector<float>& f = operand.floats;
+      for (size_t i = 0; i + 4 <= f.size(); i += 4) {
+        const float w = f[i + 3] != 0 ? f[i + 3] : 1;
+        for (size_t k = 0; k < 3; ++k) f[i / 4 * 3 + k] = f[i + k] / w;
+      }
+      f.resize(f.size() / 4 * 3);
+    }
+    p.name = "P";
+    p.declaration.type = "point";
+    p.declaration.components = 3;
+  }
 }
 
 const RibNamedValue* find_parameter(const std::vector<RibNamedValue>& parameters, std::string_view name) {

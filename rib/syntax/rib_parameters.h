@@ -11,6 +11,10 @@
 
 namespace pelage {
 
+/// Begin of RibDeclaration::type for a parameter that a pattern computes: "reference color". The values are
+/// strings, such as "pattern:output".
+inline constexpr std::string_view kRibReference = "reference ";
+
 /// How many values a parameter has.
 enum class RibClass { kConstant, kUniform, kVarying, kVertex, kFaceVarying };
 
@@ -37,7 +41,7 @@ class RibDeclarations {
   /// Returns the parameters among the arguments of a request, from argument `first` on. Numbers of integers
   /// become floats where the declaration demands floats. Throws Error (kInput) for a parameter without a
   /// value, and for a value of the wrong type. `undeclared`: receives the names of parameters that nothing
-  /// declares; such parameters are not returned.
+  /// declares or whose declaration is malformed; such parameters are not returned.
   std::vector<RibNamedValue> parameters(RibStatement& request, size_t first,
                                         std::vector<std::string>& undeclared) const;
 
@@ -47,6 +51,9 @@ class RibDeclarations {
 
 /// Parses "class type[n]", where the class may be missing. Returns nullopt if it is malformed.
 std::optional<RibDeclaration> parse_declaration(std::string_view text);
+
+/// Converts "Pw", points with weights, to "P", unless there is a "P".
+void project_points(RibStatement& request, std::vector<RibNamedValue>& parameters);
 
 /// Returns the parameter of this name; null when there is none.
 const RibNamedValue* find_parameter(const std::vector<RibNamedValue>& parameters, std::string_view name);

@@ -32,6 +32,11 @@ RibTransform RibTransform::after(const RibTransform& first) const {
   return RibTransform(std::move(samples));
 }
 
+bool is_usable(const RibTransform& transform) {
+  return std::all_of(transform.samples().begin(), transform.samples().end(),
+                     [](const auto& sample) { return is_usable(sample.second); });
+}
+
 bool is_usable(const M44f& matrix) {
   for (const auto& row : matrix.x) {
     for (const float x : row) {

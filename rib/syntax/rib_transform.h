@@ -32,5 +32,7 @@ class RibTransform {
 
 /// Returns whether all elements are finite and the upper left 3 x 3 block has an inverse.
 bool is_usable(const M44f& matrix);
+/// Returns whether the matrices at all times are usable.
+bool is_usable(const RibTransform& transform);
 
 }  // namespace pelage

@@ -122,5 +122,21 @@ TEST_F(UpdatedAssets, AChangedMapIsReadAgain) {
   EXPECT_NEAR(hide.color.color({}).x, 180.0f / 255, 1e-3f);
 }
 
+// A table takes 0.16 s. It depends neither on the colour nor on the name of the material.
+TEST_F(UpdatedAssets, MaterialsThatDifferInColorShareATable) {
+  edit("materials:\n",
+       "materials:\n"
+       "  a: {model: cone-shell, color: 0.2}\n"
+       "  b: {model: cone-shell, color: [0.5, 0.3, 0.1], opacity: 0.5}\n"
+       "  c: {model: cone-shell, color: 0.2, primary_width: 20}\n");
+  update();
+  const auto table = [&](size_t material) {
+    return fibre_params(assets_.materials.at(material))->coat_color;
+  };
+  EXPECT_TRUE(table(0));
+  EXPECT_EQ(table(0), table(1));
+  EXPECT_NE(table(0), table(2));
+}
+
 }  // namespace
 }  // namespace pelage

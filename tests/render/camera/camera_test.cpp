@@ -40,6 +40,38 @@ TEST(Camera, ProjectUndoesRay) {
   }
 }
 
+TEST(Camera, OrthographicRaysAreParallel) {
+  CameraParams params = moving_camera();
+  params.orthographic = Keyed<float>({{1.0, 6.0f}, {2.0, 8.0f}});
+  params.lens = LensParams{};
+  const Camera camera(params, 1.5, kWidth, kHeight);
+  EXPECT_FALSE(camera.has_lens());
+  for (uint64_t i = 0; i < 100; ++i) {
+    const float x = random(i, 0) * kWidth, y = random(i, 1) * kHeight, time = random(i, 2);
+    const CameraRay ray = camera.ray(x, y, V2f(0.5f), time);
+    EXPECT_EQ(ray.direction, camera.axis(time));
+    const V3f at = ray.origin + (1 + 20 * random(i, 3)) * ray.direction;
+    const auto raster = camera.project(at, time);
+    ASSERT_TRUE(raster);
+    EXPECT_NEAR(raster->x, x, 2e-3f);
+    EXPECT_NEAR(raster->y, y, 2e-3f);
+    EXPECT_TRUE(camera.may_see(Box3f(at, at)));
+    V3f ndc;
+    const V3f still = camera.ray(x, y, V2f(0.5f), camera.frame_time()).origin + 3.0f * camera.axis(0.5f);
+    camera.world_to_ndc().multVecMatrix(still, ndc);
+    const auto expected = camera.project_at_frame(still, 0);
+    EXPECT_NEAR(ndc.x * kWidth, expected->x, 1e-2f);
+    EXPECT_NEAR(ndc.y * kHeight, expected->y, 1e-2f);
+  }
+  // 180 pixels are 7 units high at the frame, at any distance.
+  for (const float distance : {0.1f, 1e3f})
+    EXPECT_NEAR(camera.view().pixels_per_unit(camera.view().position + V3f(distance, 0, 0)), 180 / 7.0f,
+                1e-3f);
+  EXPECT_NEAR(pixels_per_unit(camera.lod_view(), V3f(3, 2, 1)), 180 / 6.5f, 1e-3f)
+      << "when the shutter opens";
+  EXPECT_FALSE(camera.may_see(Box3f(V3f(100), V3f(101))));
+}
+
 TEST(Camera, ProjectedLengthIsTheSumOfTheProjectedEdgesBeforeTheCamera) {
   const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
   int behind = 0;

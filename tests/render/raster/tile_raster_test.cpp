@@ -124,6 +124,16 @@ TEST(TileRaster, MovingCamerasAgreeWithRays) {
   EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
 }
 
+TEST(TileRaster, ParallelLinesOfSightAgreeWithRays) {
+  RasterScene scene(48, 32);
+  scene.camera.orthographic = Keyed<float>(3.5f);
+  scene.add_fur(random_strands(5, many(1)), diffuse_fibre(Rgb(0.5f)));
+  scene.add_skin(sphere_mesh(0.5f), LambertParams{});
+  const RasterScene::Agreement seen = scene.compare(16);
+  EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
+  EXPECT_LT(static_cast<double>(seen.traced), 0.2 * static_cast<double>(seen.samples));
+}
+
 TEST(TileRaster, AGroundBelowTheCameraDoesNotTraceWholeTiles) {
   RasterScene scene(48, 32);
   scene.camera.position = V3f(0, 0.3f, 10);

@@ -9,7 +9,7 @@
 #include "tests/support/quiet_job.h"
 #include "world/world.h"
 
-namespace pelage {
+namespace pelage::rib_document_test {
 namespace {
 
 class RibDocumentTest : public testing::Test {
@@ -141,10 +141,112 @@ TEST_F(RibDocumentTest, LightsAndMaterialsOfOtherPrograms) {
   EXPECT_EQ(scene.lights.items[1].name, "pointlight");
   const auto& quad = std::get<RectangleLightParams>(scene.lights.items[2].value);
   EXPECT_EQ(quad.size, V2f(2, 1));
-  // The world is left-handed: it is mirrored, and with it the side from which the corners turn left.
+  // The corners turn left as seen from z = 1, in a left-handed world, which is mirrored.
+  EXPECT_LT(quad.look_at.at(1).z, 0);
   EXPECT_EQ(quad.radiance, Rgb(1, 2, 3));
   EXPECT_TRUE(std::holds_alternative<LambertParams>(scene.materials.find("plastic")->value));
   EXPECT_EQ(scene.warnings.size(), 2u) << "one for gobo, one for plastic";
+}
+
+TEST_F(RibDocumentTest, OrthographicCamerasAndTheirWindow) {
+  // Without a projection, RI sees [-1, 1] of the shorter side, from the origin along +z.
+  SceneDescription scene = shot("Format 64 48 1 WorldBegin " + kHair + "WorldEnd");
+  Camera camera(scene.camera, 1, 64, 48);
+  EXPECT_LT((camera.ray(64, 48, V2f(.5f), 0).origin - V3f(4.0f / 3, -1, 0)).length(), 1e-6f);
+  EXPECT_EQ(camera.ray(64, 48, V2f(.5f), 0).direction, V3f(0, 0, -1)) << "the world is mirrored";
+  scene = shot(
+      "Format 64 64 1 ScreenWindow 0 4 -1 3 Projection \"orthographic\" Translate 0 0 9 Scale 2 2 -2 "
+      "WorldBegin " +
+      kHair + "WorldEnd");
+  EXPECT_TRUE(scene.warnings.empty());
+  camera = Camera(scene.camera, 1, 64, 64);
+  for (const V3f& p : {V3f(0, 0, 0), V3f(1, 0.5f, 2), V3f(0.3f, -0.2f, -7)}) {
+    const auto at = camera.project(p, 0);
+    ASSERT_TRUE(at);
+    EXPECT_NEAR(at->x, 16 * 2 * p.x, 1e-3f);
+    EXPECT_NEAR(at->y, 64 - 16 * (2 * p.y + 1), 1e-3f);
+  }
+}
+
+TEST_F(RibDocumentTest, LightsOfOldShadersAreNoBackground) {
+  write("", "sky.hdr");
+  write("", "sky.env");
+  const SceneDescription scene = shot(
+      "Projection \"perspective\" WorldBegin LightSource \"ambientlight\" 1 LightSource \"envlight\" 2 "
+      "\"string filename\" "
+      "\"sky.hdr\" LightSource \"envlight\" 3 \"string filename\" \"sky.env\" LightSource \"envlight\" 4 "
+      "\"string "
+      "filename\" \"none.hdr\" LightSource \"shadowspot\" 5 \"from\" [1 2 3] \"to\" [0 0 0] LightSource "
+      "\"mySun\" 6 AttributeBegin AreaLightSource \"a\" 7 Polygon \"P\" [0 0 0 2 0 0 3 1 0 2 2 0 0 2 0] "
+      "AttributeEnd WorldEnd");
+  ASSERT_EQ(scene.lights.items.size(), 7u);
+  const auto environment = [&](size_t i) {
+    return std::get<EnvironmentLightParams>(scene.lights.items[i].value);
+  };
+  for (size_t i = 0; i < 4; ++i) EXPECT_FALSE(environment(i).visible);
+  EXPECT_EQ(environment(1).file.path, folder_.path() / "sky.hdr");
+  EXPECT_TRUE(environment(2).file.empty());
+  EXPECT_TRUE(environment(3).file.empty());
+  EXPECT_EQ(std::get<SphereLightParams>(scene.lights.items[4].value).position.at(1), V3f(1, 2, -3));
+  EXPECT_GT(std::get<SphereLightParams>(scene.lights.items[5].value).radius, 10);
+  const auto& polygon = std::get<RectangleLightParams>(scene.lights.items[6].value);
+  EXPECT_NEAR(polygon.size.x * polygon.size.y, 5, 1e-5);
+  EXPECT_EQ(scene.warnings.size(), 4u) << "the missing map, the map of another kind, the cone, the polygon";
+}
+
+TEST_F(RibDocumentTest, LightsOfRis) {
+  const SceneDescription scene = shot(
+      "Projection \"perspective\" Scale 1 1 -1 WorldBegin Light \"PxrDomeLight\" \"dome\" \"float "
+      "intensity\" [2] \"float exposure\" "
+      "[1] \"color lightColor\" [1 .5 .25] AttributeBegin Translate 0 5 0 Scale 4 2 1 Light \"PxrRectLight\" "
+      "\"rect\" "
+      "AttributeEnd Attribute \"visibility\" \"int camera\" [0] Light \"PxrSphereLight\" \"ball\" Light "
+      "\"PxrDistantLight\" \"sun\" \"float angleExtent\" [2] Light \"PxrMeshLight\" \"mesh\" WorldEnd");
+  ASSERT_EQ(scene.lights.items.size(), 4u);
+  const auto& dome = std::get<EnvironmentLightParams>(scene.lights.items[0].value);
+  EXPECT_EQ(scene.lights.items[0].name, "dome");
+  EXPECT_EQ(dome.radiance, Rgb(4, 2, 1));
+  EXPECT_TRUE(dome.visible);
+  const auto& rect = std::get<RectangleLightParams>(scene.lights.items[1].value);
+  EXPECT_NEAR(rect.size.x * rect.size.y, 8, 1e-5);
+  EXPECT_LT((rect.look_at.at(1) - rect.position.at(1)).normalized().z, -0.999f);
+  EXPECT_TRUE(rect.visible);
+  const auto& ball = std::get<SphereLightParams>(scene.lights.items[2].value);
+  EXPECT_FLOAT_EQ(ball.radius, .5f);
+  EXPECT_FALSE(ball.visible);
+  const auto& sun = std::get<SphereLightParams>(scene.lights.items[3].value);
+  EXPECT_NEAR(sun.radius / sun.position.at(1).length(), std::sin(M_PI / 180), 1e-6);
+  EXPECT_FALSE(sun.visible) << "in no renderer";
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].message.find("PxrMeshLight"), std::string::npos);
+}
+
+TEST_F(RibDocumentTest, BxdfsAndOpacity) {
+  const std::string mesh = "PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0] ";
+  const SceneDescription scene = shot(
+      "Projection \"perspective\" WorldBegin LightSource \"ambientlight\" 1 Bxdf \"PxrSurface\" \"eye\" "
+      "\"color diffuseColor\" [.2 .4 .6] \"float "
+      "diffuseGain\" [.5] \"color specularFaceColor\" [1 1 1] \"float specularRoughness\" [.1] " +
+      mesh + "Bxdf \"PxrDiffuse\" \"skin\" " + mesh +
+      "Bxdf \"PxrMarschnerHair\" \"hair\" \"color diffuseColor\" [0 0 0] \"color specularColorTT\" [.3 .2 "
+      ".1] \"float "
+      "specularConeAngleR\" [9] " +
+      kHair +
+      "Pattern \"PxrPrimvar\" \"own\" \"string varname\" [\"Cs\"] Bxdf \"PxrDisney\" \"tuft\" \"reference "
+      "color baseColor\" "
+      "[\"own:resultRGB\"] Opacity .5 .5 .5 " +
+      kHair + "WorldEnd");
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0].message;
+  const auto& eye = std::get<GlossyParams>(scene.materials.find("eye")->value);
+  EXPECT_EQ(eye.color.color({}), Rgb(.1f, .2f, .3f));
+  EXPECT_EQ(eye.roughness, .1f);
+  EXPECT_TRUE(std::holds_alternative<LambertParams>(scene.materials.find("skin")->value));
+  const auto& hair = std::get<MarschnerParams>(scene.materials.find("hair")->value);
+  EXPECT_EQ(hair.color.color({}), Rgb(.3f, .2f, .1f));
+  EXPECT_EQ(hair.beta, 9);
+  const auto& tuft = std::get<ConeShellParams>(scene.materials.find("tuft")->value);
+  EXPECT_EQ(tuft.color.attribute_names(), (std::vector<std::string>{"color"}));
+  EXPECT_FLOAT_EQ(tuft.opacity.value({}), .5f);
 }
 
 TEST_F(RibDocumentTest, MistakesHavePositions) {
@@ -196,4 +298,4 @@ TEST_F(RibDocumentTest, ScenesGetMaterialsForTheSurfacesOfTheirArchives) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::rib_document_test

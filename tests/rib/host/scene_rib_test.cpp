@@ -116,6 +116,24 @@ TEST_F(SceneRib, CameraProjectsLikeThePicture) {
   }
 }
 
+// Renderers that read a floating-point 0 as something else quantise the picture to 0 .. 255.
+TEST_F(SceneRib, BinaryQuantizeHasIntegers) {
+  const std::string text =
+      file_text(write("q.rib", {{RibEncoding::kBinary, false}, RibCoats::kProcedurals, false}).at(0));
+  const std::string rgba = std::string("\x94") + "rgba";
+  const size_t quantize = text.find("Quantize");
+  ASSERT_NE(quantize, std::string::npos);
+  const size_t at = text.find(rgba, quantize) + rgba.size();
+  EXPECT_EQ(text.substr(at, 6), std::string("\x80\0\x80\0\x80\0", 6));
+}
+
+TEST_F(SceneRib, OrthographicCamerasHaveTheirWindow) {
+  const auto rib = requests({}, {{"camera.orthographic", "6"}});
+  EXPECT_EQ(find(rib, "Projection").arguments[0].texts[0], "orthographic");
+  EXPECT_EQ(find(rib, "ScreenWindow").arguments[1].numbers[0], 4.5) << "48 x 32 pixels";
+  EXPECT_EQ(find(rib, "ScreenWindow").arguments[3].numbers[0], 3);
+}
+
 TEST_F(SceneRib, MovingCameraIsAMotionBlock) {
   const auto rib = requests({}, {{"camera.position", "{keys: {0: [3, 2, 8], 2: [4, 2, 8]}}"}});
   size_t at = 0;

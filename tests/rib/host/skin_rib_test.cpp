@@ -63,7 +63,16 @@ TEST(SkinRib, MotionAndPolygons) {
   EXPECT_EQ(names, (std::vector<std::string>{"Attribute", "MotionBegin", "PointsGeneralPolygons",
                                              "PointsGeneralPolygons", "MotionEnd"}));
   EXPECT_EQ(requests[1].arguments[0].numbers, (std::vector<double>{0, 0.5}));
-  EXPECT_EQ(requests[2].arguments[0].numbers, (std::vector<double>{1, 1}));
+  EXPECT_EQ(requests[2].arguments[0].numbers, (std::vector<double>{1}));
+  EXPECT_EQ(requests[2].arguments[2].numbers, (std::vector<double>{0, 1, 2, 3})) << "without the hole";
+}
+
+// Aqsis and others refuse SubdivisionMesh "bilinear".
+TEST(SkinRib, BilinearSurfacesArePolygons) {
+  const auto requests = written(SubdivisionScheme::kBilinear, BoundaryRule::kEdgeAndCorner, 1);
+  EXPECT_EQ(requests[0].parameter("string scheme").texts, (std::vector<std::string>{"bilinear"}));
+  EXPECT_EQ(requests[2].name, "PointsGeneralPolygons");
+  EXPECT_EQ(requests[2].parameter("facevarying float[2] st").numbers.size(), 8u);
 }
 
 TEST(SkinRib, ThePoseAtRestIsWrittenOnlyForOtherPoses) {

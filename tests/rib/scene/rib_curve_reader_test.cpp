@@ -173,6 +173,78 @@ TEST(RibCurveReader, ParametersOfEveryClass) {
   EXPECT_EQ(set.undeclared, (std::vector<std::string>{"rust"}));
 }
 
+TEST(RibCurveReader, CurvesWithTooFewPointsGiveNoStrands) {
+  const RibCurveSet lines = read(
+      "Curves \"linear\" [1 2 0 3] \"nonperiodic\" \"P\" [9 9 9 0 0 0 1 0 0 0 0 1 1 0 1 2 0 1] "
+      "\"varying float width\" [9 1 2 3 4 5] \"uniform color Cs\" [9 9 9 1 0 0 9 9 9 0 1 0] "
+      "\"uniform integer id\" [9 5 9 6]",
+      {});
+  EXPECT_EQ(lines.unusable, 2u);
+  const Strands strands(lines.strands);
+  ASSERT_EQ(strands.strand_count(), 2u);
+  EXPECT_EQ(strands.point(0), V3f(0));
+  EXPECT_EQ(strands.radius(0), .5f);
+  EXPECT_EQ(strands.radius(4), 2.5f);
+  EXPECT_EQ(strands.find_attribute("color")->values, (std::vector<float>{1, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(strands.id(1), 6u);
+  // Programs disagree about the number of joints of a curve that is too short.
+  for (const char* widths : {"[1 2]", "[9 1 2]", "[9 9 1 2]"}) {
+    for (const char* basis_name : {"bezier", "b-spline"}) {
+      const RibCurveSet cubic =
+          read(std::string("Curves \"cubic\" [3 4] \"nonperiodic\" \"P\" [9 9 9 9 9 9 9 9 9 "
+                           "0 0 0 1 0 0 2 0 0 3 0 0] \"varying float width\" ") +
+                   widths,
+               basis(basis_name, 1));
+      EXPECT_EQ(cubic.unusable, 1u);
+      ASSERT_EQ(cubic.strands.ids.size(), 1u);
+      EXPECT_LT(cubic.strands.points[4], 3) << "not of the short curve";
+      EXPECT_LT(cubic.strands.points[7], 2) << "not of the short curve";
+    }
+  }
+  EXPECT_TRUE(
+      read("Curves \"cubic\" [5] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0]", basis("bezier", 3))
+          .strands.ids.empty());
+}
+
+TEST(RibCurveReader, PinnedCurvesReachTheirEnds) {
+  const std::string pinned = "Curves \"cubic\" [4] \"pinned\" \"P\" [0 0 0 1 2 4 2 2 5 4 2 5] ";
+  for (const char* name : {"b-spline", "catmull-rom"}) {
+    const RibCurveSet set = read(pinned + "\"varying float width\" [4 3 2 1]", basis(name, 1));
+    const RibCurveSet phantoms = read(
+        "Curves \"cubic\" [6] \"nonperiodic\" \"P\" [-1 -2 -4 0 0 0 1 2 4 2 2 5 4 2 5 6 2 5] \"varying float "
+        "width\" [4 3 2 1]",
+        basis(name, 1));
+    EXPECT_EQ(set.strands.points, phantoms.strands.points) << name;
+    EXPECT_EQ(set.strands.basis, phantoms.strands.basis) << name;
+  }
+  EXPECT_EQ(read(pinned, basis("b-spline", 1)).unusable + read(pinned, basis("bezier", 3)).unusable, 0u);
+}
+
+TEST(RibCurveReader, ClassesAreCorrectedByCount) {
+  const RibCurveSet set = read(
+      "Curves \"cubic\" [5] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 1 0 3 1 0 4 0 1] \"varying float width\" [5 "
+      "4 3 2 1] "
+      "\"varying color Cs\" [1 0 0 1]",
+      basis("b-spline", 1));
+  EXPECT_FLOAT_EQ(set.strands.points[3], 2.5f) << "per point";
+  EXPECT_FALSE(set.has_color);
+  EXPECT_EQ(set.misfits,
+            (std::vector<std::string>{"parameter 'Cs' needs 9 numbers for these curves, got 4"}));
+}
+
+TEST(RibCurveReader, OpacityIsTheMeanOfOs) {
+  const RibCurveSet set = read(
+      "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] \"varying color Os\" [1 1 1 0 .3 .6] "
+      "\"constantwidth\" -1 \"varying normal N\" [1 0 0 1 0 0]",
+      {});
+  EXPECT_TRUE(set.has_opacity);
+  EXPECT_TRUE(set.negative_widths);
+  EXPECT_TRUE(set.ribbons);
+  const StrandAttribute& opacity = set.strands.attributes.at(0);
+  EXPECT_EQ(opacity.name, "opacity");
+  EXPECT_FLOAT_EQ(opacity.values.at(1), .3f);
+}
+
 TEST(RibCurveReader, WidthsOfOpenSplinesContinueBeyondTheJoints) {
   const Strands strands(read("Curves \"cubic\" [5] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 1 0 3 1 0 4 0 1] "
                              "\"varying float width\" [3 2 1]",
@@ -199,13 +271,12 @@ TEST(RibCurveReader, MotionHasAKeyPerSample) {
 
 TEST(RibCurveReader, WrongCountsAreErrorsWithPositions) {
   const RibBasis bezier = basis("bezier", 3);
-  EXPECT_EQ(failure("Curves \"cubic\" [5] \"nonperiodic\" \"P\" [0 0 0]", bezier),
-            "a.rib:1:16: Curves: 5 points do not form whole segments of a cubic curve");
   EXPECT_EQ(failure("Curves \"linear\" [3] \"nonperiodic\" \"P\" [0 0 0]", bezier),
             "a.rib:1:39: Curves: parameter 'P' needs 9 numbers for these curves, got 3");
-  EXPECT_EQ(failure("Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] \"varying float width\" [1]",
-                    bezier),
-            "a.rib:1:75: Curves: parameter 'width' needs 2 numbers for these curves, got 1");
+  EXPECT_EQ(
+      failure("Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] \"varying float width\" [1 2 3]",
+              bezier),
+      "a.rib:1:75: Curves: parameter 'width' needs 2 numbers for these curves, got 3");
   EXPECT_EQ(failure("Curves \"linear\" [1000000000 1000000000] \"nonperiodic\" \"P\" [0 0 0]", bezier),
             "a.rib:1:17: Curves: a curve has 1000000000 points");
   EXPECT_EQ(failure("Curves \"linear\" [-1] \"nonperiodic\"", bezier),

@@ -60,6 +60,11 @@ TEST(RibMeshReader, TheFirstLoopIsTheOutline) {
   EXPECT_EQ(mesh.ignored.size(), 1u);
 }
 
+TEST(RibMeshReader, PointsMayHaveWeights) {
+  EXPECT_EQ(read("Polygon \"Pw\" [0 0 0 1 2 0 0 2 2 2 0 2]").cage.positions,
+            (std::vector<V3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
+}
+
 TEST(RibMeshReader, MotionHasPositionsPerSample) {
   const std::string one = "PointsPolygons [4] [0 1 2 3]";
   const RibMesh mesh = read(one + kSquare + "\n" + one + " \"P\" [0 0 1 1 0 1 1 1 1 0 1 1]");
@@ -80,11 +85,39 @@ TEST(RibMeshReader, PrefIsTheMeshAtRest) {
   EXPECT_NE(failure(square + " \"vertex point Pref\" [0 0 5]").find("needs 4 points"), std::string::npos);
 }
 
+TEST(RibMeshReader, HierarchicalMeshesHaveTagsWithTexts) {
+  const RibMesh mesh = read(
+      "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"creasemethod\" \"crease\" "
+      "\"vertexedit\"] [0 0 1 "
+      "2 1 0 1 0 2] [0 1 7] [3] [\"chaikin\" \"add\" \"P\"]" +
+      kSquare);
+  EXPECT_TRUE(mesh.cage.chaikin_creases);
+  ASSERT_EQ(mesh.cage.creases.size(), 1u);
+  EXPECT_EQ(mesh.cage.creases[0].sharpness, 3);
+  EXPECT_EQ(mesh.ignored, (std::vector<std::string>{"tag 'vertexedit'"}));
+  EXPECT_EQ(mesh.cage.positions.size(), 4u);
+}
+
+TEST(RibMeshReader, FlatFacesAreDropped) {
+  const RibMesh mesh =
+      read("SubdivisionMesh \"catmull-clark\" [3 4 2] [0 1 1 0 1 2 3 2 3] [\"hole\"] [1 0] [1] []" + kSquare +
+           " \"facevarying float[2] st\" [9 9 9 9 9 9 0 0 1 0 1 1 0 1 9 9 9 9]");
+  EXPECT_EQ(mesh.cage.face_sizes, (std::vector<uint32_t>{4}));
+  EXPECT_EQ(mesh.cage.holes, (std::vector<uint32_t>{0}));
+  EXPECT_EQ(mesh.cage.uv[mesh.cage.face_uv[2]], V2f(1, 1));
+  EXPECT_EQ(mesh.ignored.size(), 1u);
+  EXPECT_EQ(read("PointsPolygons [] [] \"P\" []").cage.face_count(), 0u);
+}
+
+TEST(RibMeshReader, GeneralPolygonsHaveAnOutline) {
+  EXPECT_EQ(
+      read("GeneralPolygon [4 3] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0 .1 .1 0 .2 .1 0 .1 .2 0]").cage.face_vertices,
+      (std::vector<uint32_t>{0, 1, 2, 3}));
+}
+
 TEST(RibMeshReader, MistakesHavePositions) {
   EXPECT_EQ(failure("PointsPolygons [3] [0 1 9]" + kSquare),
             "a.rib:1:1: PointsPolygons: face 0 has vertex 9, but there are only 4 points");
-  EXPECT_EQ(failure("PointsPolygons [3] [0 1 1]" + kSquare),
-            "a.rib:1:1: PointsPolygons: face 0 has fewer than 3 different vertices");
   EXPECT_EQ(failure("PointsPolygons [4] [0 1 2]" + kSquare),
             "a.rib:1:1: PointsPolygons: the faces have 4 vertices together, but 3 are given");
   EXPECT_EQ(failure("PointsPolygons [999999999] [0]" + kSquare),
@@ -101,7 +134,9 @@ TEST(RibMeshReader, MistakesHavePositions) {
   EXPECT_NE(failure("SubdivisionMesh \"loop\" [3] [0 1 2] [\"hole\"] [1 0] [7] []" + kSquare).find("index 7"),
             std::string::npos);
   EXPECT_NE(failure("PointsPolygons [3] [0 1 2]").find("\"P\" must be"), std::string::npos);
-  EXPECT_NE(failure("PointsPolygons [] [] \"P\" []").find("no faces"), std::string::npos);
+  EXPECT_NE(failure("HierarchicalSubdivisionMesh \"loop\" [3] [0 1 2] [\"hole\"] [1 0] [0] [] []" + kSquare)
+                .find("each tag needs 3 counts"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -80,10 +80,14 @@ TEST(RibLexer, CompressedFilesReadAlike) {
   EXPECT_NE(failure(whole.substr(0, whole.size() - 4)).find("damaged or cut off"), std::string::npos);
 }
 
+TEST(RibLexer, MarksOfEditorsAreBlanks) {
+  EXPECT_EQ(tokens("\xef\xbb\xbfScale 1 2 3\r\n\x1a"), tokens("Scale 1 2 3"));
+}
+
 TEST(RibLexer, ErrorsHavePositions) {
   EXPECT_EQ(failure("Scale 1\n  2x"), "a.rib:2:3: '2x' is not a number");
   EXPECT_EQ(failure("Scale -"), "a.rib:1:7: '-' is not a number");
-  EXPECT_EQ(failure("Scale nan"), "no error") << "nan is a request";
+  EXPECT_EQ(failure("Scale nan"), "a.rib:1:7: 'nan' is not a number") << "no request";
   EXPECT_EQ(failure("Scale 1e999"), "a.rib:1:7: '1e999' is too large for a number");
   EXPECT_EQ(failure("Scale -1e999"), "a.rib:1:7: '-1e999' is too large for a number");
   EXPECT_EQ(failure("\n\"abc"), "a.rib:2:1: a string has no closing quote");

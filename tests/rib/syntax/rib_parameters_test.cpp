@@ -66,10 +66,22 @@ TEST(RibParameters, WrongTypesAreErrors) {
             "a.rib:1:8: A: parameter 'id' needs integers, got an array of 1 numbers");
   EXPECT_EQ(failure("A \"P\""), "a.rib:1:3: A: parameter 'P' has no value");
   EXPECT_EQ(failure("A 5 6"), "a.rib:1:3: A: expected the name of a parameter, got an integer");
-  EXPECT_EQ(failure("A \"varying flaot width\" 1"),
-            "a.rib:1:3: A: 'varying flaot width' does not declare a parameter; expected a class, a type and "
-            "a name, "
-            "such as \"varying float width\"");
+}
+
+TEST(RibParameters, ExportersHaveTypesOfTheirOwn) {
+  const RibDeclarations declarations;
+  RibStatement one = request(
+      "A \"varying flaot width\" 1 \"struct ManifoldStruct m\" [\"a:b\"] \"int n\" [4.0] \"facevertex float "
+      "s\" [1 2] "
+      "\"reference color c\" [\"node:out\"] \"reference float[2] d\" [\"node:out\"]");
+  std::vector<std::string> undeclared;
+  const auto all = declarations.parameters(one, 0, undeclared);
+  EXPECT_EQ(undeclared, (std::vector<std::string>{"varying flaot width", "struct ManifoldStruct m"}));
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[0].value->integers, (std::vector<int64_t>{4}));
+  EXPECT_EQ(all[1].declaration.frequency, RibClass::kFaceVarying);
+  EXPECT_EQ(all[2].declaration.type, "reference color");
+  EXPECT_EQ(all[3].value->strings, (std::vector<std::string>{"node:out"}));
 }
 
 TEST(RibParameters, BlanksAroundTheCountOfAnArray) {
