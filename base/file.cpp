@@ -86,6 +86,28 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
   return contents;
 }
 
+std::string_view foreign_contents(std::string_view beginning) {
+  return beginning.starts_with("version https://git-lfs") ? "is a git-lfs pointer, not the file itself" : "";
+}
+
+std::string_view foreign_text(std::string_view beginning) {
+  const auto zero = [&](size_t i) { return beginning[i] == '\0'; };
+  const bool marked = beginning.starts_with("\xff\xfe") || beginning.starts_with("\xfe\xff");
+  // Without a mark, one byte of each of the first two characters is zero.
+  const bool halves = beginning.size() >= 4 && zero(0) != zero(1) && zero(0) == zero(2) &&
+                      zero(1) == zero(3) &&
+                      ((beginning[0] | beginning[1] | beginning[2] | beginning[3]) & 0x80) == 0;
+  return marked || halves ? "is text in UTF-16; save it as UTF-8" : foreign_contents(beginning);
+}
+
+std::string read_text_file(const std::filesystem::path& path, size_t limit) {
+  std::string text = read_file(path, limit);
+  if (const std::string_view foreign = foreign_text(text); !foreign.empty())
+    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, std::string(foreign));
+  if (text.starts_with(kUtf8Mark)) text.erase(0, kUtf8Mark.size());
+  return text;
+}
+
 std::filesystem::path target_of_links(std::filesystem::path path) {
   constexpr int kMaxLinks = 40;  // the kernel's limit
   const std::filesystem::path named = path;

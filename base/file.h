@@ -17,6 +17,18 @@ namespace pelage {
 /// regular file or is longer than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
 
+/// foreign_contents() tells from the first 64 bytes of a file whether the file is something else than its
+/// name says: it returns "is a git-lfs pointer, not the file itself", or empty text. foreign_text(), for
+/// formats that begin with ASCII characters, also knows text in UTF-16.
+std::string_view foreign_contents(std::string_view beginning);
+std::string_view foreign_text(std::string_view beginning);
+
+/// Reads a text file like read_file(), without the byte-order mark of UTF-8. Also throws Error (kInput) when
+/// the file is what foreign_text() knows.
+std::string read_text_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
+
+inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< byte-order mark of UTF-8
+
 /// Follows symbolic links as long as the last component of the path is one, and returns the resulting path.
 /// The target need not exist. Throws Error (kFailed) for cyclic links.
 std::filesystem::path target_of_links(std::filesystem::path path);

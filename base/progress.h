@@ -28,7 +28,7 @@ class Progress {
 };
 
 /// Shows nothing and never stops.
-class NoProgress final : public Progress {
+class NoProgress : public Progress {
  public:
   void begin(std::string_view, double) override {}
   void advance(double) override {}

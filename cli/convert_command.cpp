@@ -2,6 +2,8 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/output_files.h"
+#include "cli/progress_display.h"
 #include "geom/io/strand_file.h"
 
 namespace pelage {
@@ -10,9 +12,14 @@ int run_convert(const Options& options) {
   if (!is_strand_file(options.output)) {
     throw Error(ErrorKind::kArguments, options.output + ": strands are written as .hair or .tfx");
   }
-  const StrandFile file = read_strands(options.input, {options.basis, options.default_width});
-  write_strands(options.output, file.strands);
+  const StrandFile file = read_strands(options.input, {options.basis, options.default_width, true});
+  ProgressDisplay display(options.progress, [] { return false; });
+  warn_of_losses(options.output, file.strands, display);
+  // Widths that neither the file nor the user states stay unstated.
+  const bool has_widths = file.assumed_width == 0;
+  write_strands(options.output, file.strands, has_widths);
   std::cout << options.output << ": " << file.strands.strand_count() << " strands";
+  if (!has_widths) std::cout << " without widths";
   if (file.repairs.repaired > 0) std::cout << ", " << file.repairs.repaired << " repaired";
   if (file.repairs.dropped > 0) std::cout << ", " << file.repairs.dropped << " dropped";
   std::cout << "\n";

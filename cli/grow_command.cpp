@@ -66,6 +66,16 @@ struct Growth {
   MemoryCharge charge;
 };
 
+/// A strand file holds one moment: the opening of the shutter. Also, parts that move have more motion keys.
+Strands at_open(Strands strands) {
+  if (strands.motion_keys() == 1) return strands;
+  const size_t points = strands.point_count();
+  StrandArrays arrays = std::move(strands).release();
+  arrays.motion_keys = 1;
+  arrays.points.resize(4 * points);
+  return Strands(std::move(arrays));
+}
+
 int64_t bytes_of(const StrandCounts& n) {
   const size_t floats = n.points * n.motion_keys * 4 + n.attribute_floats;
   return static_cast<int64_t>(floats * sizeof(float) + n.strands * (sizeof(uint64_t) + sizeof(uint32_t) +
@@ -95,7 +105,7 @@ Growth grow(const FurPart& part, bool keep, Run& run) {
       strands += leaf.strand_count();
       points += leaf.point_count();
       bytes += leaf.bytes();
-      if (keep) growth.leaves[i] = std::move(leaf);
+      if (keep) growth.leaves[i] = at_open(std::move(leaf));
       run.display().advance(1);
     }
   });
@@ -146,15 +156,46 @@ void prune_caches(const Assets& assets) {
   }
 }
 
-// A strand file has a single basis.
-void write_grown(const std::string& path, const std::vector<Strands>& grown) {
+/// For messages: the coats of which no strand has an attribute that strands of another coat have. `coats`:
+/// the coat of each batch.
+std::map<std::string, std::string> coats_without(const std::vector<Strands>& grown,
+                                                 const std::vector<std::string>& coats) {
+  std::map<std::string, std::set<std::string>> owners;
+  for (size_t i = 0; i < grown.size(); ++i) {
+    for (const StrandAttribute& attribute : grown[i].attributes()) owners[attribute.name].insert(coats[i]);
+  }
+  std::map<std::string, std::string> without;
+  for (const auto& [attribute, with] : owners) {
+    for (const std::string& coat : std::set<std::string>(coats.begin(), coats.end())) {
+      if (with.contains(coat)) continue;
+      std::string& text = without[attribute];
+      text += (text.empty() ? "" : ", ") + coat;
+    }
+  }
+  return without;
+}
+
+/// `coats`: the coat of each batch.
+void write_grown(const std::string& path, const std::vector<Strands>& grown,
+                 const std::vector<std::string>& coats, Progress& progress) {
+  // A strand file has a single basis.
   for (const Strands& strands : grown) {
     if (strands.basis() != grown.front().basis()) {
       throw Error(ErrorKind::kArguments,
                   "the grooms use different curve bases; choose one groom with --groom");
     }
   }
-  write_strands(path, merge(grown));
+  for (const auto& [attribute, lacking] : coats_without(grown, coats)) {
+    progress.warn(
+        fmt::format("{}: strands of {} have no {}; the file says {} for them (--groom chooses one groom)",
+                    path, lacking, attribute,
+                    attribute == "color"     ? "white"
+                    : attribute == "opacity" ? "1"
+                                             : "0"));
+  }
+  const Strands merged = merge(grown);
+  warn_of_losses(path, merged, progress);
+  write_strands(path, merged);
   std::cout << path << "\n";
 }
 
@@ -221,6 +262,7 @@ int run_grow(const Options& options) {
   run.statistics().world = world.counts;
 
   std::vector<Strands> grown;
+  std::vector<std::string> coats;  // of each of them
   std::vector<MemoryCharge> charges;
   std::set<std::string> seen;
   for (const FurPart& part : world.scene.fur) {
@@ -238,10 +280,11 @@ int run_grow(const Options& options) {
     run.statistics().frames.residency.expansions += leaf_count;
     run.statistics().stages_s["grow"] += growth.seconds;
     charges.push_back(std::move(growth.charge));
-    if (!options.output.empty())
-      std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
+    if (options.output.empty()) continue;
+    std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
+    coats.resize(grown.size(), part.name);
   }
-  if (!options.output.empty()) write_grown(options.output, grown);
+  if (!options.output.empty()) write_grown(options.output, grown, coats, run.display());
   run.finish(options);
   if (options.output.empty()) require_kept(*assets, options);
   return 0;

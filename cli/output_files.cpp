@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary_file.h"
+#include "geom/io/strand_file.h"
 
 namespace pelage {
 
@@ -25,6 +26,12 @@ void check_stats(const RunOptions& options, const std::vector<std::filesystem::p
 void prepare_output(const std::filesystem::path& path) {
   const AtomicFile probe(path);
   sweep_temporaries(target_of_links(path).parent_path());
+}
+
+void warn_of_losses(const std::filesystem::path& path, const Strands& strands, Progress& progress) {
+  const std::string lost = what_is_lost(path, strands);
+  if (lost.empty()) return;
+  progress.warn(path.string() + ": " + path.extension().string() + " files cannot hold " + lost);
 }
 
 }  // namespace pelage

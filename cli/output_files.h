@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "cli/run_options.h"
+#include "geom/strands.h"
 
 namespace pelage {
 
@@ -20,5 +22,8 @@ void check_stats(const RunOptions& options, const std::vector<std::filesystem::p
 /// Checks that `path` can be written; call it before long work. Throws Error (kFailed) when it cannot. Also
 /// removes temporary files that killed runs left in the same folder.
 void prepare_output(const std::filesystem::path& path);
+
+/// Warns, in one line, of everything that a strand file of this name cannot hold (geom/io/strand_file.h).
+void warn_of_losses(const std::filesystem::path& path, const Strands& strands, Progress& progress);
 
 }  // namespace pelage

@@ -170,7 +170,7 @@ void fill_flat_topology(const ControlMesh& mesh, const std::function<void()>& ch
 }
 
 size_t flat_bytes(size_t triangles, size_t vertices, bool has_uv) {
-  const size_t edges = triangles + triangles / 2 + vertices;  // a margin for borders
+  const size_t edges = 3 * triangles;  // if no two triangles share one
   return sizeof(SurfaceTopology::Impl) +
          triangles * (3 * sizeof(uint32_t) + 2 +                                        // per triangle
                       4 * 3 * sizeof(uint32_t) + (has_uv ? 3 * sizeof(V2f) : 0) + 4) +  // per corner

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/vector.h"
 
 namespace pelage {
@@ -42,6 +43,18 @@ struct ControlMesh {
   size_t face_count() const { return face_sizes.size(); }
   size_t bytes() const;
 };
+
+/// Removes each face that has the same vertices as an earlier face, in any order: exporters of two-sided
+/// surfaces write each face twice. The earlier face is a hole only if all of them are. Returns the number of
+/// removed faces. Needs 16 temporary bytes per face. Leaves a mesh alone whose arrays do not fit each other.
+size_t merge_equal_faces(ControlMesh& mesh);
+
+/// What a mesh and its poses must have in common: poses are positions without names.
+struct MeshOrder {
+  size_t vertices = 0;
+  ContentHash faces;  ///< of the vertices of each face: content_hash() of their counts and numbers, in order
+};
+MeshOrder mesh_order(const ControlMesh& mesh);
 
 /// Returns the number of distinct vertices of a face, but at most 3. A face with fewer than 3 has no area.
 int distinct_corners(std::span<const uint32_t> face);

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/check.h"
+#include "base/memory_budget.h"
 #include "geom/io/obj_file.h"
 
 namespace pelage {
@@ -15,8 +16,8 @@ class PoseSequence::Files {
  public:
   using Positions = std::shared_ptr<const std::vector<V3f>>;
 
-  Files(std::vector<std::filesystem::path> paths, size_t cage_points, MemoryLedger& ledger)
-      : paths_(std::move(paths)), cage_points_(cage_points), ledger_(ledger), read_(paths_.size()) {
+  Files(std::vector<std::filesystem::path> paths, const MeshOrder& order, MemoryLedger& ledger)
+      : paths_(std::move(paths)), order_(order), ledger_(ledger), read_(paths_.size()) {
     PELAGE_CHECK(!paths_.empty());
   }
   ~Files() { ledger_.charge(MemoryTag::kSkins, -charged_); }
@@ -26,38 +27,43 @@ class PoseSequence::Files {
   Positions get(size_t file) {
     const std::lock_guard lock(mutex_);
     if (!read_[file]) {
-      const size_t max = std::max<size_t>(2, kMaxBytes / std::max<size_t>(1, cage_points_ * sizeof(V3f)));
-      if (order_.size() >= max) {
+      const int64_t limit = ledger_.limit();
+      const int64_t max = (limit > 0 ? std::min(kMaxBytes, limit / 8) : kMaxBytes) / pose_bytes();
+      while (kept_.size() >= 2 && (std::ssize(kept_) >= max || !has_room(ledger_, pose_bytes()))) {
         charge(-1);
-        read_[order_.front()].reset();
-        order_.erase(order_.begin());
+        read_[kept_.front()].reset();
+        kept_.erase(kept_.begin());
       }
-      read_[file] = std::make_shared<const std::vector<V3f>>(read_obj_positions(paths_[file], cage_points_));
-      order_.push_back(file);
+      require_memory(ledger_, pose_bytes(), "the pose " + paths_[file].string());
+      read_[file] = std::make_shared<const std::vector<V3f>>(read_obj_positions(paths_[file], order_));
+      kept_.push_back(file);
       charge(1);
     }
     return read_[file];
   }
 
  private:
+  int64_t pose_bytes() const {
+    return static_cast<int64_t>(std::max<size_t>(1, order_.vertices) * sizeof(V3f));
+  }
   void charge(int64_t poses) {
-    const int64_t bytes = poses * static_cast<int64_t>(cage_points_ * sizeof(V3f));
+    const int64_t bytes = poses * pose_bytes();
     ledger_.charge(MemoryTag::kSkins, bytes);
     charged_ += bytes;
   }
 
   const std::vector<std::filesystem::path> paths_;
-  const size_t cage_points_;
+  const MeshOrder order_;
   MemoryLedger& ledger_;
   std::mutex mutex_;             // guards the following
   std::vector<Positions> read_;  // of each file, or null
-  std::vector<size_t> order_;    // files in memory, the one read first first
+  std::vector<size_t> kept_;     // files in memory, the one read first first
   int64_t charged_ = 0;
 };
 
 PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle,
-                           size_t cage_points, MemoryLedger& ledger, double frames_per_pose)
-    : files_(std::make_unique<Files>(std::move(files), cage_points, ledger)),
+                           const MeshOrder& order, MemoryLedger& ledger, double frames_per_pose)
+    : files_(std::make_unique<Files>(std::move(files), order, ledger)),
       first_(first),
       cycle_(cycle),
       frames_per_pose_(frames_per_pose) {}

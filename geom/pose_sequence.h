@@ -7,6 +7,7 @@
 
 #include "base/ledger.h"
 #include "base/vector.h"
+#include "geom/mesh.h"
 
 namespace pelage {
 
@@ -20,19 +21,20 @@ namespace pelage {
 /// thread.
 class PoseSequence {
  public:
-  /// Max memory for the positions that a sequence keeps; two poses are kept even if they are larger. Charged
-  /// to the ledger as memory of skins.
-  static constexpr size_t kMaxBytes = size_t(64) << 20;
+  /// Max memory for the positions that a sequence keeps, at most an eighth of the ledger's limit and only
+  /// where there is room; two poses are kept even if they are larger. Charged to the ledger as memory of
+  /// skins.
+  static constexpr int64_t kMaxBytes = int64_t(64) << 20;
 
-  /// `cage_points`: number of points that every file must have. `frames_per_pose`: number of frames from one
-  /// pose to the next.
-  PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,
+  /// `order`: of the mesh as its file has it. `frames_per_pose`: number of frames from one pose to the next.
+  PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, const MeshOrder& order,
                MemoryLedger& ledger, double frames_per_pose = 1);
   PoseSequence(PoseSequence&&) noexcept;
   ~PoseSequence();
 
   /// Returns the positions of all control points at a frame, in object space. Throws Error (kInput) with the
-  /// name of a file that is missing, damaged, or has another number of points than `cage_points`.
+  /// name of a file that is missing, damaged, or does not fit the order. Throws Error (kMemory) before a pose
+  /// is read that does not fit the ledger's limit.
   std::vector<V3f> positions(double frame) const;
 
  private:

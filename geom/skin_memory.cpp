@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geom/flat_topology.h"
+#include "geom/manifold.h"
 #include "geom/surface_levels.h"
 
 namespace pelage {
@@ -20,9 +21,19 @@ struct FaceBytes {
   double making, held;
 };
 constexpr FaceBytes kPolygonPart[] = {{3100, 1800}, {6900, 3900}, {13900, 5600}};
-constexpr FaceBytes kIrregularQuad[] = {{4200, 2300}, {9500, 5000}, {21000, 7500}};
-constexpr FaceBytes kLoopTriangle[] = {{1100, 480}, {1500, 650}, {3000, 1000}};
-constexpr FaceBytes kRegular = {560, 330}, kBilinear = {650, 280};
+constexpr FaceBytes kIrregularQuad[] = {{4700, 2850}, {9500, 5000}, {21000, 7500}};
+constexpr double kOfSeveral = 1.45;  // for quads with several irregular vertices
+constexpr FaceBytes kIrregularLoop[] = {{6300, 4300}, {10200, 5500}, {27500, 9900}};
+constexpr FaceBytes kRegular = {560, 330}, kRegularLoop = {750, 330}, kBilinear = {700, 320};
+// The same for faces with a non-manifold vertex, by the number of sharp levels.
+constexpr FaceBytes kTangledPart[] = {{3100, 1800},  {6900, 3900},   {13900, 5600},
+                                      {31000, 9800}, {60000, 16000}, {116000, 29000}};
+constexpr FaceBytes kTangledQuad[] = {{5200, 2500},    {11500, 5400},   {38000, 12000},
+                                      {140000, 33000}, {310000, 72000}, {660000, 155000}};
+constexpr FaceBytes kTangledLoop[] = {{6300, 4300},   {10200, 5500},   {27500, 9900},
+                                      {79000, 22000}, {190000, 44000}, {410000, 90000}};
+// For each vertex in excess of one per four corners of faces, such as unused ones.
+constexpr FaceBytes kLooseVertex = {150, 30};
 // Additional bytes: per square of each unusual valence and polygon size; per vertex where infinitely sharp
 // edges end or branch, and per such edge; per semi-sharp edge, for each of its refined parts.
 constexpr FaceBytes kSquare = {260, 115}, kSharpEnd = {62000, 20000}, kSharpEdge = {1200, 600},
@@ -39,37 +50,59 @@ std::vector<uint32_t> valences(const ControlMesh& mesh) {
   return valence;
 }
 
-/// The usual case: four faces at a vertex, two or one at a border.
-bool is_regular_quad(std::span<const uint32_t> vertices, const std::vector<uint32_t>& valence) {
-  return vertices.size() == 4 && std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) {
-           return v < valence.size() && (valence[v] == 4 || valence[v] <= 2);
-         });
-}
-
-/// Numbers of ptex faces that subdivision treats alike.
+/// Numbers of faces that subdivision treats alike, by the worst of their vertices.
 struct FaceCounts {
-  double regular = 0, parts = 0, irregular = 0, squares = 0;
+  double regular = 0, irregular = 0, tangled = 0;  // quads, or triangles of the Loop scheme
+  double parts = 0, tangled_parts = 0;             // ptex faces of other polygons
+  double all = 0;                                  // of the scheme: whole ones, and parts of other polygons
+  double squares = 0;
+  size_t tangled_faces = 0;  // all of them, of any size
 };
 
-FaceCounts count_faces(const ControlMesh& mesh) {
+FaceCounts count_faces(const ControlMesh& mesh, bool is_loop) {
   FaceCounts counts;
   const std::vector<uint32_t> valence = valences(mesh);
+  const std::vector<VertexFan> fans = vertex_fans(mesh);
+  const auto is_tangled = [&](uint32_t v) { return v < fans.size() && fans[v] == VertexFan::kTangled; };
+  const auto is_regular = [&](uint32_t v) {
+    if (v >= fans.size()) return false;
+    if (fans[v] == VertexFan::kClosed) return valence[v] == (is_loop ? 6 : 4);
+    return is_loop ? valence[v] == 3 : valence[v] <= 2;
+  };
+  const uint32_t whole = is_loop ? 3 : 4;
   size_t first = 0;
   for (const uint32_t size : mesh.face_sizes) {
     if (first + size > mesh.face_vertices.size()) break;
     const auto vertices = std::span(mesh.face_vertices).subspan(first, size);
     first += size;
-    if (size != 4) counts.parts += size;
-    if (size == 4) ++(is_regular_quad(vertices, valence) ? counts.regular : counts.irregular);
+    counts.all += size == whole ? 1 : size;
+    const bool tangled = std::any_of(vertices.begin(), vertices.end(), is_tangled);
+    counts.tangled_faces += tangled;
+    if (size != whole) {
+      (tangled ? counts.tangled_parts : counts.parts) += size;
+    } else if (tangled) {
+      ++counts.tangled;
+    } else {
+      const auto regular = std::count_if(vertices.begin(), vertices.end(), is_regular);
+      if (regular == whole) ++counts.regular;
+      if (regular < whole) counts.irregular += regular + 1 < whole && !is_loop ? kOfSeveral : 1;
+    }
     if (size > 16) counts.squares += double(size) * size;
   }
   for (const uint32_t n : valence) counts.squares += n > 16 ? double(n) * n : 0;
   return counts;
 }
 
-/// Bytes of sharp edges and corners, and of unusual valences.
+FaceBytes loose_bytes(const ControlMesh& mesh) {
+  const double loose = std::max(0.0, double(mesh.positions.size()) - double(mesh.face_vertices.size()) / 4);
+  return {loose * kLooseVertex.making, loose * kLooseVertex.held};
+}
+
+/// Bytes of sharp edges and corners, of unusual valences and of loose vertices.
 FaceBytes special_bytes(const ControlMesh& mesh, const FaceCounts& counts) {
-  FaceBytes sum = {counts.squares * kSquare.making, counts.squares * kSquare.held};
+  FaceBytes sum = loose_bytes(mesh);
+  sum.making += counts.squares * kSquare.making;
+  sum.held += counts.squares * kSquare.held;
   const auto add = [&](const FaceBytes& each, double count) {
     sum.making += each.making * count;
     sum.held += each.held * count;
@@ -107,25 +140,28 @@ SkinMemory skin_memory(const ControlMesh& mesh, SubdivisionScheme scheme) {
         bytes(static_cast<double>(flat_bytes(triangles, vertices, has_uv) + vertices * 6 * sizeof(float))),
         bytes(static_cast<double>(triangles) * kOfTriangle)};
   }
-  const FaceCounts n = count_faces(mesh);
-  const auto level = static_cast<size_t>(smooth_levels(mesh) - 1);
-  const double quads = n.regular + n.irregular;
-  const FaceBytes special = special_bytes(mesh, n);
-  if (scheme == SubdivisionScheme::kLoop) {
-    const auto faces = static_cast<double>(mesh.face_count());
-    return {bytes(faces * kLoopTriangle[level].making + special.making),
-            bytes(faces * kLoopTriangle[level].held + special.held), bytes(faces * kOfTriangle)};
-  }
-  const double triangles = 2 * (quads + n.parts) * kOfTriangle;
+  const bool is_loop = scheme == SubdivisionScheme::kLoop;
+  const FaceCounts n = count_faces(mesh, is_loop);
+  const auto smooth = static_cast<size_t>(smooth_levels(mesh) - 1);
+  const auto sharp = static_cast<size_t>(sharp_levels(mesh, n.tangled_faces) - 1);
+  FaceBytes sum = special_bytes(mesh, n);
+  const auto add = [&sum](double count, const FaceBytes& each) {
+    sum.making += count * each.making;
+    sum.held += count * each.held;
+  };
   if (scheme == SubdivisionScheme::kBilinear) {
-    return {bytes((quads + n.parts) * kBilinear.making), bytes((quads + n.parts) * kBilinear.held),
-            bytes(triangles)};
+    sum = loose_bytes(mesh);
+    add(n.all, kBilinear);
+  } else {
+    add(n.regular, is_loop ? kRegularLoop : kRegular);
+    add(n.irregular, is_loop ? kIrregularLoop[smooth] : kIrregularQuad[smooth]);
+    add(n.tangled, is_loop ? kTangledLoop[sharp] : kTangledQuad[sharp]);
+    add(n.parts, kPolygonPart[smooth]);
+    add(n.tangled_parts, kTangledPart[sharp]);
   }
-  const FaceBytes &part = kPolygonPart[level], &quad = kIrregularQuad[level];
-  return {
-      bytes(n.regular * kRegular.making + n.parts * part.making + n.irregular * quad.making + special.making),
-      bytes(n.regular * kRegular.held + n.parts * part.held + n.irregular * quad.held + special.held),
-      bytes(triangles)};
+  if (!mesh.face_uv.empty()) add(n.all, {4 * sizeof(V2f), 4 * sizeof(V2f)});
+  const double triangles = is_loop ? n.all : 2 * n.all;
+  return {bytes(sum.making), bytes(sum.held), bytes(triangles * kOfTriangle)};
 }
 
 }  // namespace pelage

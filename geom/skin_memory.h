@@ -17,8 +17,8 @@ struct SkinMemory {
 };
 
 /// Estimates the memory of a skin. The estimate is never below the measured memory. For meshes of more than a
-/// few hundred faces, it is at most twice the measured memory. Takes some nanoseconds per face. The mesh need
-/// not be valid.
+/// few hundred faces, it is at most twice the measured memory, and at most four times if the mesh is not
+/// manifold. Takes about 0.2 us and 40 temporary bytes per face. The mesh need not be valid.
 SkinMemory skin_memory(const ControlMesh& mesh, SubdivisionScheme scheme);
 
 }  // namespace pelage

@@ -25,6 +25,12 @@ std::vector<Source> sources_by_id(std::span<const Strands> batches) {
   return sources;
 }
 
+// The attribute of this name in a batch; `missing` if it has none.
+const StrandAttribute& attribute_of(const Strands& batch, const StrandAttribute& missing) {
+  const StrandAttribute* own = batch.find_attribute(missing.name);
+  return own ? *own : missing;
+}
+
 // Appends the values of `from` for one strand, converted to the frequency `to`.
 void append_values(const StrandAttribute& from, const Source& source, AttributeClass to,
                    std::vector<float>& out) {
@@ -40,19 +46,35 @@ void append_values(const StrandAttribute& from, const Source& source, AttributeC
   }
 }
 
-// Frequency at which all batches can hold the attribute; false when one of them does not have it.
-bool common_class(std::span<const Strands* const> batches, const StrandAttribute& attribute,
+// Frequency at which all batches can hold the attribute; false when they have different numbers of
+// components.
+bool common_class(std::span<const Strands* const> batches, const StrandAttribute& missing,
                   AttributeClass& widest) {
-  widest = attribute.frequency;
+  widest = AttributeClass::kConstant;
+  const std::vector<float>& values = attribute_of(*batches.front(), missing).values;
   for (const Strands* batch : batches) {
-    const StrandAttribute* other = batch->find_attribute(attribute.name);
-    if (!other || other->components != attribute.components) return false;
-    widest = std::max(widest, other->frequency);
-    if (other->frequency == AttributeClass::kConstant && other->values != attribute.values) {
+    const StrandAttribute& own = attribute_of(*batch, missing);
+    if (own.components != missing.components) return false;
+    widest = std::max(widest, own.frequency);
+    if (own.frequency == AttributeClass::kConstant && own.values != values)
       widest = std::max(widest, AttributeClass::kPerStrand);
-    }
   }
   return true;
+}
+
+// Every attribute of the batches once, with the constant value of strands that lack it.
+std::vector<StrandAttribute> all_attributes(std::span<const Strands* const> batches) {
+  std::vector<StrandAttribute> all;
+  for (const Strands* batch : batches) {
+    for (const StrandAttribute& attribute : batch->attributes()) {
+      const auto same = [&](const StrandAttribute& other) { return other.name == attribute.name; };
+      if (std::any_of(all.begin(), all.end(), same)) continue;
+      const float value = attribute.name == "color" || attribute.name == "opacity" ? 1.0f : 0.0f;
+      all.push_back({attribute.name, AttributeClass::kConstant, attribute.components,
+                     std::vector<float>(static_cast<size_t>(attribute.components), value)});
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -94,15 +116,14 @@ Strands merge(std::span<const Strands> batches) {
       out.points.insert(out.points.end(), points.begin(), points.end());
     }
   }
-  for (const StrandAttribute& attribute : first.attributes()) {
-    StrandAttribute merged{attribute.name, attribute.frequency, attribute.components, {}};
-    if (!common_class(filled, attribute, merged.frequency)) continue;
+  for (const StrandAttribute& missing : all_attributes(filled)) {
+    StrandAttribute merged{missing.name, missing.frequency, missing.components, {}};
+    if (!common_class(filled, missing, merged.frequency)) continue;
     if (merged.frequency == AttributeClass::kConstant) {
-      merged.values = attribute.values;
+      merged.values = attribute_of(first, missing).values;
     } else {
-      for (const Source& source : sources) {
-        append_values(*source.batch->find_attribute(attribute.name), source, merged.frequency, merged.values);
-      }
+      for (const Source& source : sources)
+        append_values(attribute_of(*source.batch, missing), source, merged.frequency, merged.values);
     }
     out.attributes.push_back(std::move(merged));
   }

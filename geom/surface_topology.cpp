@@ -11,15 +11,13 @@
 #include "base/job.h"
 #include "geom/cage_refiner.h"
 #include "geom/flat_topology.h"
+#include "geom/manifold.h"
 #include "geom/surface_levels.h"
 #include "geom/surface_topology_impl.h"
 
 namespace pelage {
 
 namespace {
-
-// Refinement levels around creases and corners. Semi-sharp creases are resolved up to this sharpness.
-constexpr int kSharpLevels = 6;
 
 template <class T>
 size_t topology_bytes(const std::vector<T>& values) {
@@ -281,7 +279,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   impl->list_uses(impl->control_count);
   check_stop();
 
-  Far::PatchTableFactory::Options options(kSharpLevels);
+  Far::PatchTableFactory::Options options(sharp_levels(mesh, tangled_face_count(mesh, vertex_fans(mesh))));
   options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
   options.useInfSharpPatch = true;
   options.generateVaryingTables = false;

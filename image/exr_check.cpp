@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/nearest_name.h"
 
 namespace pelage {
@@ -72,7 +73,13 @@ class HeaderWalk {
   }
 
   void run() {
-    if (size_ < 8 || number() != kMagic) fail("is not an EXR file");
+    if (size_ < 8 || number() != kMagic) {
+      std::string beginning(64, '\0');
+      stream_.seekg(0);
+      stream_.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+      const std::string_view foreign = foreign_contents(beginning);
+      fail(foreign.empty() ? "is not an EXR file" : std::string(foreign));
+    }
     const uint32_t version = number();
     longest_name_ = (version & kLongNames) ? 255 : 31;
     int parts = 0;

@@ -41,7 +41,8 @@ struct FieldDependence {
 /// immutable and cheap to copy.
 ///
 ///   0.5 | [r, g, b]
-///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}    # without channel: colour
+///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb, wrap: clamp|repeat}  # without channel:
+///                                                                                         # colour
 ///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  # linear; values may be colours
 ///   {noise: {frequency, amplitude, offset, seed}}    # offset + amplitude * noise(rest * frequency)
 ///   {attribute: name}                                # 0 where strands do not have it

@@ -23,12 +23,12 @@ struct MapNode final : Field::Node {
   float map(float stored) const { return form.range.x + (form.range.y - form.range.x) * stored; }
   float value(const FieldPoint& p) const override {
     PELAGE_CHECK(texture != nullptr);
-    return map(texture->channel(p.u, p.v, channel));
+    return map(texture->channel(p.u, p.v, channel, form.wrap));
   }
   Rgb color(const FieldPoint& p) const override {
     if (form.channel) return Rgb(value(p));
     PELAGE_CHECK(texture != nullptr);
-    const Rgb stored = texture->color(p.u, p.v);
+    const Rgb stored = texture->color(p.u, p.v, form.wrap);
     return {map(stored.x), map(stored.y), map(stored.z)};
   }
   FieldDependence dependence() const override { return {.surface = true}; }
@@ -41,6 +41,7 @@ struct MapNode final : Field::Node {
     if (form.channel) text += fmt::format(", channel: {}", ValueReader<MapChannel>::print(*form.channel));
     if (form.range != V2f(0, 1)) text += fmt::format(", range: {}", ValueReader<V2f>::print(form.range));
     if (form.space != ColorSpace::kAuto) text += ", space: " + ValueReader<ColorSpace>::print(form.space);
+    if (form.wrap != TextureWrap::kClamp) text += ", wrap: " + ValueReader<TextureWrap>::print(form.wrap);
     return text + "}";
   }
   void collect_maps(std::vector<AssetPath>& maps) const override { maps.push_back(form.map); }

@@ -43,12 +43,19 @@ struct EnumNames<MapChannel> {
   static constexpr const char* names[] = {"r", "g", "b", "a"};
 };
 
-/// Keys of {map: f.png, channel: r, range: [a, b], space: auto}. Stored values 0 and 1 become a and b.
+template <>
+struct EnumNames<TextureWrap> {
+  static constexpr const char* names[] = {"clamp", "repeat"};
+};
+
+/// Keys of {map: f.png, channel: r, range: [a, b], space: auto, wrap: clamp}. Stored values 0 and 1 become a
+/// and b.
 struct MapForm {
   AssetPath map;
   std::optional<MapChannel> channel;
   V2f range{0, 1};
   ColorSpace space = ColorSpace::kAuto;
+  TextureWrap wrap = TextureWrap::kClamp;
   static const Schema<MapForm>& schema();
 };
 

@@ -251,6 +251,9 @@ const Schema<MapForm>& MapForm::schema() {
     s.key("space", &MapForm::space,
           {.help = "Colour space of stored values. `auto`: integer formats are sRGB, unless a channel is "
                    "given; floating-point formats are linear"});
+    s.key("wrap", &MapForm::wrap,
+          {.help = "What the map is where texture coordinates are below 0 or above 1. `clamp`: its border; "
+                   "`repeat`: the image again, which also mixes opposite borders"});
     return s;
   }();
   return table;

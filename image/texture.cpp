@@ -28,14 +28,20 @@ std::shared_ptr<const TexelStore> float_texels(const Image& image) {
 
 }  // namespace
 
-/// Sample positions and weight of a bilinear lookup along one axis of `size` texels, repeated.
+/// Sample positions and weight of a bilinear lookup along one axis of `size` texels.
 struct Texture::Tap {
   int a = 0, b = 0;
   float t = 0;
 };
 
-Texture::Tap Texture::tap(float coordinate, int size) {
+Texture::Tap Texture::tap(float coordinate, int size, TextureWrap wrap) {
   if (!std::isfinite(coordinate)) return {};
+  if (wrap == TextureWrap::kClamp) {
+    const auto last = static_cast<float>(size - 1);
+    const float x = std::clamp(coordinate * static_cast<float>(size) - 0.5f, 0.0f, last);
+    const int i = static_cast<int>(x);
+    return {i, std::min(i + 1, size - 1), x - std::floor(x)};
+  }
   const float wrapped = coordinate - std::floor(coordinate);
   const float x = wrapped * static_cast<float>(size) - 0.5f;
   const int i = static_cast<int>(std::floor(x));  // -1 .. size - 1, or size where wrapped rounds to 1
@@ -86,13 +92,13 @@ std::pair<float, float> Texture::range(int channel) const {
   return {decode_.linear(low, channel), decode_.linear(high, channel)};
 }
 
-float Texture::channel(float u, float v, int channel) const {
+float Texture::channel(float u, float v, int channel, TextureWrap wrap) const {
   PELAGE_CHECK(channel >= 0 && channel < channels());
-  return Corners(*texels_, tap(u, width()), tap(1 - v, height())).filtered(decode_, channel);
+  return Corners(*texels_, tap(u, width(), wrap), tap(1 - v, height(), wrap)).filtered(decode_, channel);
 }
 
-Rgb Texture::color(float u, float v) const {
-  const Corners corners(*texels_, tap(u, width()), tap(1 - v, height()));
+Rgb Texture::color(float u, float v, TextureWrap wrap) const {
+  const Corners corners(*texels_, tap(u, width(), wrap), tap(1 - v, height(), wrap));
   if (channels() < 3) return Rgb(corners.filtered(decode_, 0));
   return {corners.filtered(decode_, 0), corners.filtered(decode_, 1), corners.filtered(decode_, 2)};
 }

@@ -26,10 +26,16 @@ struct Image {
   size_t bytes() const { return pixels.size() * sizeof(float); }
 };
 
+/// What a texture is outside its image.
+enum class TextureWrap {
+  kClamp,   ///< the border of the image: opposite borders never mix
+  kRepeat,  ///< the image again
+};
+
 /// An image that is looked up by texture coordinates. u points right and v points up; the lower left corner
-/// of the image is (0, 0), the upper right one (1, 1). The image repeats outside this range. Lookups give the
-/// same values whether the texels are in memory or in a file of tiles. They throw Error (kFailed) when a tile
-/// cannot be read. Immutable. Thread safety: const members may be called from any thread.
+/// of the image is (0, 0), the upper right one (1, 1). Lookups give the same values whether the texels are in
+/// memory or in a file of tiles. They throw Error (kFailed) when a tile cannot be read. Immutable. Thread
+/// safety: const members may be called from any thread.
 class Texture {
  public:
   /// `srgb`: whether all channels except alpha are decoded from sRGB, which happens before filtering.
@@ -44,10 +50,10 @@ class Texture {
   std::pair<float, float> range(int channel) const;
 
   /// Looks up one channel with bilinear interpolation.
-  float channel(float u, float v, int channel) const;
+  float channel(float u, float v, int channel, TextureWrap wrap = TextureWrap::kClamp) const;
   /// Looks up the first three channels with bilinear interpolation. If the image has only one or two
   /// channels, returns the first channel three times.
-  Rgb color(float u, float v) const;
+  Rgb color(float u, float v, TextureWrap wrap = TextureWrap::kClamp) const;
 
   /// Copies the linear colours of a rectangle of texels inside the image to `to`, row by row from the top.
   void colors(int x, int y, int width, int height, Rgb* to) const;
@@ -60,7 +66,7 @@ class Texture {
  private:
   struct Tap;
   class Corners;
-  static Tap tap(float coordinate, int size);
+  static Tap tap(float coordinate, int size, TextureWrap wrap);
   Rgb decoded(const std::byte* texel) const;
 
   std::shared_ptr<const TexelStore> texels_;

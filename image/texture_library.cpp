@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory_budget.h"
 #include "base/memory_sample.h"
 #include "base/value_readers.h"
@@ -44,8 +45,8 @@ void check_image_file(const AssetPath& asset) {
   std::string beginning(64, '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   if (stream.gcount() == 0) fail_image(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
-  if (beginning.starts_with("version https://git-lfs"))
-    fail_image(asset, "is a git-lfs pointer, not the image itself");
+  if (const std::string_view foreign = foreign_contents(beginning); !foreign.empty())
+    fail_image(asset, std::string(foreign));
   if (is_cut_short(stream)) fail_image(asset, "is truncated");
   if (beginning.starts_with("v/1\x01")) {
     try {

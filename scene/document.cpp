@@ -30,7 +30,7 @@ class Loader {
     --limits_.files;
     std::string text;
     try {
-      text = read_file(path, DocumentLimits{}.bytes);
+      text = read_text_file(path, DocumentLimits{}.bytes);
     } catch (const Error& error) {
       if (named_at.file.empty()) throw;  // the scene itself
       problems_.add(named_at, error.what());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/archives.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -9,12 +10,14 @@
 
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
+#include "geom/skin_memory.h"
 #include "procedurals/skin/pose_cache.h"
 #include "procedurals/skin/posed_character_skin.h"
 #include "rib/scene/rib_reading.h"
 #include "world/archive_coats.h"
 #include "world/compose.h"
 #include "world/frame_characters.h"
+#include "world/skin_memory_check.h"
 
 namespace pelage {
 namespace {
@@ -158,7 +161,10 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
       job.progress.warn(to_string(warning.position) + ": " + warning.message);
   }
   size_t bytes = bytes_of(*rib);
-  for (const RibSkin& skin : rib->skins) {
+  for (RibSkin& skin : rib->skins) {
+    warn_of_equal_faces(merge_equal_faces(skin.cage), to_string(skin.position), "the mesh", job);
+    const SkinMemory memory = skin_memory(skin.cage, skin.scheme);
+    require_memory(job.ledger, static_cast<int64_t>(bytes + std::max(memory.making, memory.held)), what);
     const auto topology =
         SurfaceTopology::create(skin.cage, skin.scheme, skin.boundary, to_string(skin.position), job);
     archive.surfaces.push_back(std::make_shared<const LimitSurface>(topology, skin.cage.positions));

@@ -129,11 +129,10 @@ void require_file(const std::filesystem::path& file, const SourcePosition& named
   }
 }
 
-PoseSequence pose_sequence(const PosesParams& params, const ControlMesh& cage, MemoryLedger& ledger) {
+PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, MemoryLedger& ledger) {
   const std::vector<std::filesystem::path> files = pose_files(params);
   for (const std::filesystem::path& file : files) require_file(file, params.files.position);
-  return PoseSequence(files, params.first, params.cycle, cage.positions.size(), ledger,
-                      params.frames_per_pose);
+  return PoseSequence(files, params.first, params.cycle, order, ledger, params.frames_per_pose);
 }
 
 Assets::Skin load_skin(const std::string& name, const SkinParams& params, SharedTopologies& topologies,
@@ -141,6 +140,9 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
   require_file(params.mesh.path, params.mesh.position);
   MemoryCharge reading = reserve_reading(name, params, job);
   ControlMesh cage = read_obj(params.mesh.path, job);
+  const MeshOrder order = mesh_order(cage);
+  warn_of_equal_faces(merge_equal_faces(cage), to_string(params.mesh.position), params.mesh.path.string(),
+                      job);
   reading = {};
   const MemoryCharge making = reserve_skin(name, params, cage, job);
   const auto topology =
@@ -148,8 +150,8 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
             topologies);
   job.check_stop();
   auto rest = std::make_shared<LimitSurface>(topology, cage.positions);
-  Assets::Skin skin{std::move(rest), std::move(cage), {}, {}, {}};
-  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, skin.cage, job.ledger));
+  Assets::Skin skin{std::move(rest), std::move(cage), order, {}, {}, {}};
+  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, order, job.ledger));
   return skin;
 }
 
@@ -231,7 +233,14 @@ std::map<std::string, ContentHash> drop_old(const SceneDescription& scene, Asset
 void update_skins(const SceneDescription& scene, const std::map<std::string, ContentHash>& keys,
                   const Job& job, Assets& assets) {
   SharedTopologies topologies;
+  // What is made is charged before the next skin is checked against the limit.
+  auto charge_new = [&, charged = size_t(0)]() mutable {
+    for (; charged < topologies.size(); ++charged)
+      assets.charges.emplace_back(job.ledger, MemoryTag::kSkins,
+                                  static_cast<int64_t>(topologies[charged]->bytes()));
+  };
   for (const auto& [name, skin] : assets.skins) share(skin.rest->shared_topology(), topologies);
+  charge_new();
   for (const auto& [name, position, params] : scene.skins.items) {
     if (assets.skins.contains(name)) continue;
     job.check_stop();
@@ -240,9 +249,8 @@ void update_skins(const SceneDescription& scene, const std::map<std::string, Con
     skin.charge = MemoryCharge(job.ledger, MemoryTag::kSkins,
                                static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
     assets.skins.emplace(name, std::move(skin));
+    charge_new();
   }
-  for (const auto& topology : topologies)
-    assets.charges.emplace_back(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
 }
 
 void update_grooms(const SceneDescription& scene, const std::map<std::string, ContentHash>& keys,
@@ -275,14 +283,14 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   const std::map<std::string, ContentHash> keys = drop_old(scene, assets);
   require_memory_for_strands(scene, assets, job);
   update_skins(scene, keys, job, assets);
-  check_maps(scene, assets.skins);
+  check_maps(scene, assets.skins, job.progress);
   for (const auto& [name, position, params] : scene.characters.items) {
     for (size_t part = 0; part < params.parts.size(); ++part) {
       const auto& [skin, material, grooms, poses] = params.parts[part];
       if (!poses) continue;
       job.check_stop();
-      const ControlMesh& cage = assets.skins.at(skin.name).cage;
-      assets.part_poses.emplace(std::pair(name, part), pose_sequence(*poses, cage, job.ledger));
+      const MeshOrder& order = assets.skins.at(skin.name).order;
+      assets.part_poses.emplace(std::pair(name, part), pose_sequence(*poses, order, job.ledger));
     }
   }
   assets.crowds = make_crowds(scene, drawn_bytes(scene, assets), job);

@@ -24,7 +24,8 @@ namespace pelage {
 struct Assets {
   struct Skin {
     std::shared_ptr<const LimitSurface> rest;  ///< surface at rest, in object space
-    ControlMesh cage;                          ///< control cage at rest, in object space
+    ControlMesh cage;                          ///< control cage at rest, in object space, without equal faces
+    MeshOrder order;                           ///< of the mesh file, for poses
     std::optional<PoseSequence> poses;         ///< empty: always at rest
     ContentHash key;                           ///< skin_key()
     MemoryCharge charge;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/map_check.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
+
+#include <fmt/format.h>
 
 #include "base/nearest_name.h"
 
@@ -15,16 +18,19 @@ using Map = ParameterText::Map;
 struct Lookup {
   std::string what;  ///< "the map spots.png"
   SourcePosition position;
+  bool ends_at_border = false;  ///< a map that does not repeat
 };
 
 /// Adds the lookups of a parameter or field, given as printed text. `position`: of the operator, material or
 /// groom, for ramps; maps have positions of their own.
 void add_lookups(const std::string& text, const std::vector<Map>& maps, const SourcePosition& position,
                  std::vector<Lookup>& lookups) {
-  for (const Map& map : maps) lookups.push_back({"the map " + map.file.filename().string(), map.position});
+  const bool repeats = text.find(", wrap: repeat") != std::string::npos;
+  for (const Map& map : maps)
+    lookups.push_back({"the map " + map.file.filename().string(), map.position, !repeats});
   for (const char* axis : {"u", "v"}) {
     if (text.find(std::string("{ramp: {along: ") + axis + ",") != std::string::npos)
-      lookups.push_back({std::string("a ramp along ") + axis, position});
+      lookups.push_back({std::string("a ramp along ") + axis, position, false});
   }
 }
 
@@ -36,8 +42,9 @@ void add_lookups(const Field& field, const SourcePosition& position, std::vector
 
 class MapChecker {
  public:
-  MapChecker(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins)
-      : scene_(scene), skins_(skins) {}
+  MapChecker(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins,
+             Progress& progress)
+      : scene_(scene), skins_(skins), progress_(progress) {}
 
   void check() {
     for (const auto& groom : scene_.grooms.items) {
@@ -73,10 +80,27 @@ class MapChecker {
   }
 
   void check_skin(const std::string& skin, const std::vector<Lookup>& lookups) {
-    if (!skins_.at(skin).cage.face_uv.empty()) return;
+    const ControlMesh& cage = skins_.at(skin).cage;
+    if (!cage.face_uv.empty()) return check_range(skin, cage, lookups);
     const std::string mesh = scene_.skins.find(skin)->value.mesh.path.filename().string();
     complain(lookups, "the mesh " + mesh + " of skin " + quote(skin) +
                           " has none; export the mesh with texture coordinates (vt lines), or");
+  }
+
+  void check_range(const std::string& skin, const ControlMesh& cage, const std::vector<Lookup>& lookups) {
+    constexpr float kRounding = 1e-3f;
+    Imath::Box2f range;
+    for (const uint32_t corner : cage.face_uv) range.extendBy(cage.uv[corner]);
+    const float excess = std::max({-range.min.x, -range.min.y, range.max.x - 1, range.max.y - 1});
+    if (!(excess > kRounding)) return;
+    for (const auto& [what, at, ends_at_border] : lookups) {
+      if (!ends_at_border || !warned_.emplace(at.file, at.line, at.column, what + skin).second) continue;
+      progress_.warn(fmt::format(
+          "{}: {} covers texture coordinates from 0 to 1, but those of skin {} reach from ({:g}, {:g}) to "
+          "({:g}, {:g}): its border continues outside (wrap: repeat repeats the image; UDIM tiles are not "
+          "supported)",
+          to_string(at), what, quote(skin), range.min.x, range.min.y, range.max.x, range.max.y));
+    }
   }
 
   void check_strands(const std::string& groom, const GroomParams& params,
@@ -88,7 +112,7 @@ class MapChecker {
   }
 
   void complain(const std::vector<Lookup>& lookups, const std::string& why) {
-    for (const auto& [what, at] : lookups) {
+    for (const auto& [what, at, ends_at_border] : lookups) {
       if (!warned_.emplace(at.file, at.line, at.column, what + why).second) continue;
       problems_.add(at, what + " is looked up by texture coordinates, but " + why +
                             " use a number, noise, or a ramp along x, y or z instead");
@@ -97,14 +121,16 @@ class MapChecker {
 
   const SceneDescription& scene_;
   const std::map<std::string, Assets::Skin>& skins_;
+  Progress& progress_;
   Problems problems_{20};
   std::set<std::tuple<std::string, int, int, std::string>> warned_;
 };
 
 }  // namespace
 
-void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins) {
-  MapChecker(scene, skins).check();
+void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins,
+                Progress& progress) {
+  MapChecker(scene, skins, progress).check();
 }
 
 }  // namespace pelage

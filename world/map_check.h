@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "base/progress.h"
 #include "world/assets.h"
 #include "world/scene_schema.h"
 
@@ -13,6 +14,10 @@ namespace pelage {
 /// a mesh without texture coordinates, or on strands without a skin. Checks all grooms, and the materials of
 /// all characters. The error lists such maps and ramps with their positions in the scene: the first 20, and
 /// the count of the others.
-void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins);
+///
+/// Warns where the texture coordinates of a skin leave the image of a map that does not repeat, such as those
+/// of UDIM tiles.
+void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins,
+                Progress& progress);
 
 }  // namespace pelage

@@ -35,8 +35,9 @@ const Schema<PosesParams>& PosesParams::schema() {
     mesh: rat.obj
     poses: {files: "poses/walk.%04d.obj", first: 1, count: 12, cycle: true})");
     s.key("files", &PosesParams::files,
-          {.help = "OBJ files with the vertices of the cage in each pose; %04d, ####, $F4 or <F4> is the "
-                   "pose number",
+          {.help =
+               "OBJ files with the vertices and faces of the cage in the same order, or its vertices alone; "
+               "%04d, ####, $F4 or <F4> is the pose number",
            .required = true});
     s.key("first", &PosesParams::first,
           {.help = "Number of the first file, and the frame at which it applies"});
@@ -59,7 +60,9 @@ const Schema<SkinParams>& SkinParams::schema() {
     s.set_example(R"(skins:
   rat: {mesh: rat.obj, scheme: catmull-clark}
   scan: {mesh: scan.obj, scheme: none})");
-    s.key("mesh", &SkinParams::mesh, {.help = "OBJ file of the control cage at rest", .required = true});
+    s.key("mesh", &SkinParams::mesh,
+          {.help = "OBJ file of the control cage at rest. Of faces with the same vertices, one is kept",
+           .required = true});
     s.key(
         "scheme", &SkinParams::scheme,
         {.help = "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as scans: "

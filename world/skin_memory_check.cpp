@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/memory_budget.h"
 #include "geom/skin_memory.h"
 
@@ -25,6 +26,12 @@ MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, 
   const auto bytes = static_cast<int64_t>(std::filesystem::file_size(params.mesh.path, unknown));
   return reserve(job.ledger, MemoryTag::kSkins, unknown ? 0 : kOfFile * bytes,
                  fmt::format("reading {} for skin '{}'", params.mesh.path.filename().string(), name));
+}
+
+void warn_of_equal_faces(size_t count, const std::string& position, const std::string& file, const Job& job) {
+  if (count == 0) return;
+  job.progress.warn(fmt::format("{}: left out {} of {}: others have the same vertices", position,
+                                counted(static_cast<int64_t>(count), "face"), file));
 }
 
 MemoryCharge reserve_skin(const std::string& name, const SkinParams& params, const ControlMesh& cage,

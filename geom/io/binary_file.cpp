@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/io/binary_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace pelage {
 
@@ -23,10 +25,10 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : path_(path) {
   size_ = std::filesystem::file_size(path, error);
   if (descriptor_.number < 0 || error) fail("cannot be opened");
   if (size_ == 0) fail("is empty");
-  constexpr std::string_view kPointer = "version https://git-lfs";
-  std::string beginning(kPointer.size(), '\0');
-  if (size_ >= beginning.size()) read_bytes(0, beginning.data(), beginning.size());
-  if (beginning == kPointer) fail("is a git-lfs pointer, not the file itself");
+  std::string beginning(std::min<uint64_t>(size_, 64), '\0');
+  read_bytes(0, beginning.data(), beginning.size());
+  if (const std::string_view foreign = foreign_contents(beginning); !foreign.empty())
+    fail(std::string(foreign));
 }
 
 void BinaryFile::require(uint64_t offset, uint64_t count, uint64_t value_size,

@@ -165,7 +165,7 @@ std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const S
   return std::make_unique<HairFile>(path, options);
 }
 
-void write_hair(const std::filesystem::path& path, const Strands& strands) {
+void write_hair(const std::filesystem::path& path, const Strands& strands, bool widths) {
   if (strands.strand_count() == 0) fail_to_write(path, "there are no strands to write");
   constexpr uint32_t kMaxSegments = std::numeric_limits<uint16_t>::max();
   const int64_t common = common_segments(strands);
@@ -184,7 +184,7 @@ void write_hair(const std::filesystem::path& path, const Strands& strands) {
   std::strcpy(header.information, "Written by Pelage");
   header.strand_count = static_cast<uint32_t>(strands.strand_count());
   header.point_count = static_cast<uint32_t>(strands.point_count());
-  header.arrays = kPoints | kThickness;
+  header.arrays = kPoints | (widths ? kThickness : 0u);
   if (common < 0) header.arrays |= kSegments;
   if (common >= 0) header.default_segments = static_cast<uint32_t>(common);
   if (transparency && transparency->frequency == AttributeClass::kConstant) {
@@ -212,8 +212,10 @@ void write_hair(const std::filesystem::path& path, const Strands& strands) {
     const V3f p = strands.point(point);
     std::copy_n(&p.x, 3, out);
   });
-  write_per_point(file, strands, 1,
-                  [&](size_t, size_t point, float* out) { *out = 2 * strands.radius(point); });
+  if (widths) {
+    write_per_point(file, strands, 1,
+                    [&](size_t, size_t point, float* out) { *out = 2 * strands.radius(point); });
+  }
   if (header.arrays & kTransparency) {
     write_per_point(file, strands, 1, [&](size_t strand, size_t point, float* out) {
       attribute_at(transparency ? *transparency : *opacity, strand, point, 1, out);

@@ -28,6 +28,16 @@ V3f read_position(ObjScanner& scanner) {
   return p;
 }
 
+/// The vertices of a face, counted from 0. Numbers below 1 count back from the last of `count` vertices.
+void read_face_vertices(ObjScanner& scanner, size_t count, std::vector<uint32_t>& face) {
+  face.clear();
+  for (std::string_view token; scanner.next_token(token);) {
+    int64_t index = 0;
+    if (!scanner.parse_integer(token.substr(0, token.find('/')), "the number of a vertex", index)) return;
+    face.push_back(static_cast<uint32_t>(index < 0 ? static_cast<int64_t>(count) + index : index - 1));
+  }
+}
+
 /// Reads one file. References to later elements are checked at the end.
 class ObjReader {
  public:
@@ -300,26 +310,38 @@ void ObjReader::complete_uv() {
 }  // namespace
 
 ControlMesh read_obj(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kLongestFile);
+  const std::string text = read_text_file(path, kLongestFile);
   return ObjReader(text, path.string(), nullptr).read();
 }
 
 ControlMesh read_obj(const std::filesystem::path& path, const Job& job) {
-  const std::string text = read_file(path, kLongestFile);
+  const std::string text = read_text_file(path, kLongestFile);
   job.check_stop();
   return ObjReader(text, path.string(), &job).read();
 }
 
-std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t expected) {
-  const std::string text = read_file(path, kLongestFile);
+std::vector<V3f> read_obj_positions(const std::filesystem::path& path, const MeshOrder& order) {
+  const std::string text = read_text_file(path, kLongestFile);
   ObjScanner scanner(text, path.string());
   std::vector<V3f> positions;
+  ContentHasher faces;
+  bool has_faces = false;
+  std::vector<uint32_t> face;
   std::string_view keyword;
   while (scanner.next_statement(keyword)) {
     if (keyword == "v") positions.push_back(read_position(scanner));
+    if (keyword != "f") continue;
+    has_faces = true;
+    read_face_vertices(scanner, positions.size(), face);
+    faces.add(std::span<const uint32_t>(face));
   }
-  if (positions.size() != expected) {
-    scanner.report_line(0, fmt::format("has {} vertices, but its cage has {}", positions.size(), expected));
+  if (positions.size() != order.vertices) {
+    scanner.report_line(
+        0, fmt::format("has {} vertices, but its cage has {}", positions.size(), order.vertices));
+  } else if (has_faces && faces.digest() != order.faces) {
+    scanner.report_line(0,
+                        "has other faces than its cage, so its vertices may be in another order; export the "
+                        "cage and its poses in the same way, or the poses without faces");
   }
   scanner.throw_if_any();
   return positions;

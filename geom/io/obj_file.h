@@ -25,8 +25,10 @@ ControlMesh read_obj(const std::filesystem::path& path);
 /// Reads a cage like read_obj(path), but throws Error (kStopped) when the job is stopped.
 ControlMesh read_obj(const std::filesystem::path& path, const Job& job);
 
-/// Reads only the vertex positions, for a pose of a cage with `expected` vertices. Throws Error (kInput) when
-/// the file has another number of vertices, or when a number is malformed or not finite.
-std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t expected);
+/// Reads only the vertex positions, for a pose of a mesh of this order. Throws Error (kInput) when the file
+/// has another number of vertices, or has faces that are not those of the mesh, in the same order: then its
+/// vertices may have another order too. Also throws it when a number is malformed or not finite. A file
+/// without faces is taken as it is.
+std::vector<V3f> read_obj_positions(const std::filesystem::path& path, const MeshOrder& order);
 
 }  // namespace pelage

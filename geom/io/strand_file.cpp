@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -18,9 +19,13 @@ namespace {
 struct Format {
   const char* ending;
   std::unique_ptr<RawStrands> (*open)(const std::filesystem::path&, const StrandReadOptions&);
-  void (*write)(const std::filesystem::path&, const Strands&);
+  void (*write)(const std::filesystem::path&, const Strands&, bool widths);
+  std::initializer_list<std::string_view> attributes;  ///< that files can hold
+  bool point_widths, root_uv;                          ///< whether files can hold them
 };
-constexpr Format kFormats[] = {{".hair", open_hair, write_hair}, {".tfx", open_tfx, write_tfx}};
+const Format kFormats[] = {
+    {".hair", open_hair, write_hair, {"color", "transparency", "opacity"}, true, false},
+    {".tfx", open_tfx, write_tfx, {"color", "transparency", "opacity", "uv", kMovable}, false, true}};
 
 const Format* find_format(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -38,6 +43,28 @@ const Format& format_of(const std::filesystem::path& path, ErrorKind kind) {
 }
 
 constexpr size_t kChunk = 4096;
+
+bool widths_vary(const Strands& strands) {
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    const uint32_t first = strands.first_point(s);
+    for (uint32_t p = first; p < first + strands.strand_points(s); ++p) {
+      if (strands.radius(p) != strands.radius(first)) return true;
+    }
+  }
+  return false;
+}
+
+bool is_usual(const StrandAttribute& movable, const Strands& strands) {
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    const uint32_t first = strands.first_point(s);
+    for (uint32_t p = first; p < first + strands.strand_points(s); ++p) {
+      float value = 0;
+      attribute_at(movable, s, p, 1, &value);
+      if (value != usually_movable(strands, s, p)) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -60,8 +87,28 @@ std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
   return format_of(path, ErrorKind::kInput).open(path, options);
 }
 
-void write_strands(const std::filesystem::path& path, const Strands& strands) {
-  format_of(path, ErrorKind::kFailed).write(path, strands);
+void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths) {
+  format_of(path, ErrorKind::kFailed).write(path, strands, widths);
+}
+
+std::string what_is_lost(const std::filesystem::path& path, const Strands& strands) {
+  const Format& format = format_of(path, ErrorKind::kFailed);
+  std::vector<std::string> lost;
+  if (!format.point_widths && widths_vary(strands))
+    lost.push_back("widths that vary along strands (each strand gets its largest)");
+  if (!format.root_uv && !strands.arrays().root_uv.empty() && !strands.has_roots())
+    lost.push_back("texture coordinates of roots");
+  for (const StrandAttribute& attribute : strands.attributes()) {
+    if (std::find(format.attributes.begin(), format.attributes.end(), attribute.name) !=
+        format.attributes.end())
+      continue;
+    if (attribute.name != kMovable) lost.push_back("the attribute " + attribute.name);
+    if (attribute.name == kMovable && !is_usual(attribute, strands))
+      lost.push_back("which points are fixed, other than the roots");
+  }
+  std::string text;
+  for (const std::string& one : lost) text += (text.empty() ? "" : ", ") + one;
+  return text;
 }
 
 void FileWindows::read_bytes(uint64_t offset, void* to, size_t count) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "geom/strands.h"
 
@@ -35,6 +36,9 @@ struct StrandReadOptions {
   /// Basis of the points, for file formats that do not state one; empty: pinned B-spline.
   std::optional<CurveBasis> basis;
   std::optional<float> default_width;  ///< diameter in scene units, for files without widths
+  /// Also read which points of a .tfx file simulations may move, as the attribute "movable": 0 for fixed
+  /// points.
+  bool movable = false;
 };
 
 /// Returns whether the file name has the extension of a supported strand format (.hair or .tfx).
@@ -49,10 +53,17 @@ bool is_strand_file(const std::filesystem::path& path);
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
 
 /// Writes strands in the format that the extension of the file name selects. Writes the whole file or
-/// nothing. Writes motion key 0 and the attributes that read_strands() reads, but neither basis nor ids. A
-/// .tfx file has one width per strand: the max width of the strand. Throws Error (kFailed) when the file
-/// cannot be written, or when the format cannot represent the strands, such as strands with different numbers
-/// of points in .tfx.
-void write_strands(const std::filesystem::path& path, const Strands& strands);
+/// nothing. Writes motion key 0 and the attributes that read_strands() reads, but neither basis nor ids.
+/// Opacity becomes transparency in .hair files, and the reverse in .tfx files. A .tfx file has one width per
+/// strand: the max width of the strand. Without `widths`, the file has none. Throws Error (kFailed) when the
+/// file cannot be written, or when the format cannot represent the strands, such as strands with different
+/// numbers of points in .tfx.
+void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths = true);
+
+/// Lists what a file of the format that the name selects cannot hold of these strands, for messages: "widths
+/// that vary along strands (each strand gets its largest), the attribute uv". Empty if it can hold
+/// everything, except for the roots of grown strands on their skin and motion keys. Throws like
+/// write_strands() for unknown formats.
+std::string what_is_lost(const std::filesystem::path& path, const Strands& strands);
 
 }  // namespace pelage

@@ -82,8 +82,14 @@ std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const St
 /// Opens a file in the format that the extension of its name selects. Throws Error (kInput).
 std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
-void write_hair(const std::filesystem::path& path, const Strands& strands);
-void write_tfx(const std::filesystem::path& path, const Strands& strands);
+void write_hair(const std::filesystem::path& path, const Strands& strands, bool widths);
+void write_tfx(const std::filesystem::path& path, const Strands& strands, bool widths);
+/// Attribute of points: 0 where the simulation of a .tfx file fixes the point, else 1.
+inline constexpr const char* kMovable = "movable";
+/// The value that files without this attribute imply: simulations fix roots only.
+inline float usually_movable(const Strands& strands, size_t strand, size_t point) {
+  return point == strands.first_point(strand) ? 0.0f : 1.0f;
+}
 
 /// Reads `count` records of `components` floats at `offset`, a few thousand at a time. Writes each record to
 /// the first `components` floats of a point (x, y, z, r) of `points`.

@@ -75,6 +75,7 @@ class TfxFile final : public RawStrands {
     check_array(file, header_.thickness, strand_count, 1, "thicknesses");
     check_array(file, header_.color, points, 4, "colours");
     has_widths = header_.thickness != 0;
+    if (options.movable) attributes.push_back({kMovable, AttributeClass::kPerPoint, 1, {}});
     if (header_.point_uv) attributes.push_back({"uv", AttributeClass::kPerPoint, 2, {}});
     if (header_.color) {
       attributes.push_back({"color", AttributeClass::kPerPoint, 3, {}});
@@ -94,6 +95,11 @@ class TfxFile final : public RawStrands {
     a.points.resize((before + count) * 4);
     const std::span<float> points = std::span(a.points).subspan(before * 4);
     windows.read(header_.points + from * 16, points);
+    size_t next = 0;
+    if (!a.attributes.empty() && a.attributes[0].name == kMovable) {
+      std::vector<float>& movable = a.attributes[next++].values;
+      for (size_t p = 0; p < count; ++p) movable.push_back(points[4 * p + 3]);
+    }
     if (header_.strand_uv) {
       const std::vector<float> uv = floats(windows, header_.strand_uv + begin * 8, (end - begin) * 2);
       for (size_t s = 0; s < uv.size(); s += 2) a.root_uv.emplace_back(uv[s], uv[s + 1]);
@@ -102,7 +108,6 @@ class TfxFile final : public RawStrands {
       const std::vector<float> thickness = floats(windows, header_.thickness + begin * 4, end - begin);
       for (size_t p = 0; p < count; ++p) points[4 * p + 3] = 0.5f * thickness[p / per_strand];
     }
-    size_t next = 0;
     if (header_.point_uv) append_values(windows, header_.point_uv + from * 8, count, a.attributes[next++]);
     if (header_.color) append_color(windows, from, count, a.attributes[next], a.attributes[next + 1]);
   }
@@ -141,7 +146,7 @@ std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const St
   return std::make_unique<TfxFile>(path, options);
 }
 
-void write_tfx(const std::filesystem::path& path, const Strands& strands) {
+void write_tfx(const std::filesystem::path& path, const Strands& strands, bool widths) {
   if (strands.strand_count() == 0) fail_to_write(path, "there are no strands to write");
   const uint32_t per_strand = strands.strand_points(0);
   for (size_t s = 1; s < strands.strand_count(); ++s) {
@@ -152,6 +157,8 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
   }
   const StrandAttribute* color = strands.find_attribute("color");
   const StrandAttribute* opacity = strands.find_attribute("opacity");
+  const StrandAttribute* transparency = opacity ? nullptr : strands.find_attribute("transparency");
+  const StrandAttribute* movable = strands.find_attribute(kMovable);
   const StrandAttribute* uv = strands.find_attribute("uv");
   const bool has_root_uv = !strands.arrays().root_uv.empty();
 
@@ -169,8 +176,9 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
   header.points = place(points, 4);
   if (has_root_uv) header.strand_uv = place(strands.strand_count(), 2);
   if (uv) header.point_uv = place(points, 2);
-  if (color || opacity) header.color = place(points, 4);
-  header.thickness = place(strands.strand_count(), 1);
+  const bool has_color = color || opacity || transparency;
+  if (has_color) header.color = place(points, 4);
+  if (widths) header.thickness = place(strands.strand_count(), 1);
   if (end > std::numeric_limits<uint32_t>::max()) fail_to_write(path, "the .tfx format holds at most 4 GiB");
 
   AtomicFile file(path);
@@ -178,7 +186,8 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
   write_per_point(file, strands, 4, [&](size_t strand, size_t point, float* out) {
     const V3f p = strands.point(point);
     std::copy_n(&p.x, 3, out);
-    out[3] = point == strands.first_point(strand) ? 0.0f : 1.0f;
+    out[3] = usually_movable(strands, strand, point);
+    if (movable) attribute_at(*movable, strand, point, 1, out + 3);
   });
   if (has_root_uv) {
     std::vector<float> values;
@@ -193,13 +202,16 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
       attribute_at(*uv, strand, point, 2, out);
     });
   }
-  if (color || opacity) {
+  if (has_color) {
     write_per_point(file, strands, 4, [&](size_t strand, size_t point, float* out) {
       std::fill_n(out, 4, 1.0f);
       if (color) attribute_at(*color, strand, point, 3, out);
       if (opacity) attribute_at(*opacity, strand, point, 1, out + 3);
+      if (transparency) attribute_at(*transparency, strand, point, 1, out + 3);
+      if (transparency) out[3] = 1 - out[3];
     });
   }
+  if (!widths) return file.commit();
   std::vector<float> thickness;
   for (size_t s = 0; s < strands.strand_count(); ++s) thickness.push_back(2 * largest_radius(strands, s));
   file.write(std::as_bytes(std::span(thickness)));

@@ -17,8 +17,8 @@ namespace pelage {
 /// one. Raise the version of the first step that now gives other results, if only in the last digit.
 /// tests/groom/cache/growth_versions_test.cpp fails when results change and no version does.
 namespace growth_version {
-inline constexpr int kSkin = 1;     ///< limit surfaces and their frames (geom/)
-inline constexpr int kFields = 1;   ///< maps, ramps and noise (image/)
+inline constexpr int kSkin = 2;     ///< limit surfaces and their frames (geom/)
+inline constexpr int kFields = 2;   ///< maps, ramps and noise (image/)
 inline constexpr int kStrands = 1;  ///< places of follicles; strands of a file and their roots
 inline constexpr int kPoints = 1;   ///< strands before the first operator
 inline constexpr int kFrozen = 1;   ///< rounding of frozen strands (groom/cache/strand_codes.h)

@@ -2,6 +2,8 @@
 #include "groom/operators/guide_set.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -44,21 +46,41 @@ std::vector<V3f> at_even_arcs(const std::vector<V3f>& line, int count) {
   return result;
 }
 
-/// Median distance to the nearest other guide, over a bounded number of evenly chosen guides.
-float median_spacing(const std::vector<V3f>& roots, const Job& job) {
-  if (roots.size() < 2) return 0;
+/// Distance from guide `g` to the nearest guide that is another one: on the same side of the skin, farther
+/// than `min`, and not much nearer than the guides around it, as copies of `g` would be. Infinite if there is
+/// none.
+float distance_to_next(const std::vector<V3f>& roots, const std::vector<V3f>& normals, size_t g, float min) {
+  constexpr size_t kAround = 16;
+  constexpr float kCopy = 1.0f / 16;  // of the distance to the last of them
+  std::array<float, kAround> nearest;
+  size_t count = 0;
+  for (size_t other = 0; other < roots.size(); ++other) {
+    if (other == g || !RootGrid::same_side(normals[g], normals[other])) continue;
+    const float distance = (roots[g] - roots[other]).length();
+    if (count == kAround && distance >= nearest[count - 1]) continue;
+    size_t at = count < kAround ? count++ : count - 1;
+    for (; at > 0 && nearest[at - 1] > distance; --at) nearest[at] = nearest[at - 1];
+    nearest[at] = distance;
+  }
+  if (count == 0) return std::numeric_limits<float>::infinity();
+  const float copies = std::max(min, kCopy * nearest[count - 1]);
+  const auto next = std::upper_bound(nearest.begin(), nearest.begin() + count, copies);
+  return next == nearest.begin() + count ? std::numeric_limits<float>::infinity() : *next;
+}
+
+/// Median of distance_to_next() over a bounded number of evenly chosen guides; 0 if no guide has a next one.
+float median_spacing(const std::vector<V3f>& roots, const std::vector<V3f>& normals, float min,
+                     const Job& job) {
   const size_t step = std::max<size_t>(1, roots.size() / 1000);
-  std::vector<float> nearest;
+  std::vector<float> distances;
   for (size_t i = 0; i < roots.size(); i += step) {
     job.check_stop();
-    float best = std::numeric_limits<float>::infinity();
-    for (size_t j = 0; j < roots.size(); ++j) {
-      if (j != i) best = std::min(best, (roots[i] - roots[j]).length());
-    }
-    nearest.push_back(best);
+    const float distance = distance_to_next(roots, normals, i, min);
+    if (std::isfinite(distance)) distances.push_back(distance);
   }
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
 }
 
@@ -109,18 +131,23 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
     roots_.push_back(context.rest->evaluate(root.face, root.u, root.v).position);
     normals_.push_back(context.rest->frame(root.face, root.u, root.v).normal);
     float length = 0;
+    V3f lean(0);
     for (size_t p = 0; p < points.size(); ++p) {
       offsets_.push_back((points[p] - points[0]) * source.scale);
+      lean += offsets_.back();
       if (p > 0) length += (points[p] - points[p - 1]).length() * source.scale;
     }
     lengths_.push_back(length);
+    leans_.push_back(lean.normalized());
     longest_ = std::max(longest_, length);
   }
-  spacing_ = median_spacing(roots_, job);
+  constexpr float kSamePlace = 1e-4f;  // of the skin's size
+  spacing_ =
+      median_spacing(roots_, normals_, kSamePlace * context.rest->control_bounds().size().length(), job);
 }
 
 size_t GuideSet::bytes() const {
-  return (roots_.capacity() + normals_.capacity() + offsets_.capacity()) * sizeof(V3f) +
+  return (roots_.capacity() + normals_.capacity() + offsets_.capacity() + leans_.capacity()) * sizeof(V3f) +
          lengths_.capacity() * sizeof(float);
 }
 

@@ -39,11 +39,14 @@ class GuideSet {
   const V3f& offset(size_t g, int p) const {
     return offsets_[g * static_cast<size_t>(points_) + static_cast<size_t>(p)];
   }
+  /// Returns the direction from the root of guide `g` to the mean of its control points; 0 if they coincide.
+  const V3f& lean(size_t g) const { return leans_[g]; }
   float length(size_t g) const { return lengths_[g]; }  ///< length of the control polygon of guide g
   /// Max of length() over all guides.
   float longest() const { return longest_; }
-  /// Median over the guides of the distance from a guide's root to the nearest other root. If there are many
-  /// guides, uses a sample of about a thousand.
+  /// Median over the guides of the distance from a guide's root to the nearest other root on the same side of
+  /// the skin, apart from copies at nearly the same place; 0 if there is none. If there are many guides, uses
+  /// a sample of about a thousand.
   float spacing() const { return spacing_; }
   size_t bytes() const;
 
@@ -54,6 +57,7 @@ class GuideSet {
   std::vector<V3f> roots_;
   std::vector<V3f> normals_;
   std::vector<V3f> offsets_;
+  std::vector<V3f> leans_;
   std::vector<float> lengths_;
 };
 

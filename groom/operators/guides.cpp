@@ -18,30 +18,67 @@ namespace {
 
 constexpr int kMaxNeighbours = 8;
 
+/// The smallest rotation from the normal of a guide's root to that of a strand's root.
+class GuideRotation {
+ public:
+  GuideRotation() = default;
+  GuideRotation(const V3f& from, const V3f& to) {
+    const Rotation rotation = rotation_between(from, to, any_perpendicular(from));
+    axis_ = rotation.axis;
+    sine_ = std::sin(rotation.angle);
+    cosine_ = std::cos(rotation.angle);
+  }
+  V3f operator()(const V3f& v) const {
+    return v * cosine_ + axis_.cross(v) * sine_ + axis_ * (axis_.dot(v) * (1 - cosine_));
+  }
+
+ private:
+  V3f axis_{0};
+  float sine_ = 0, cosine_ = 1;
+};
+
 struct Weights {
   std::array<RootGrid::Neighbour, kMaxNeighbours + 1> guide;
+  std::array<GuideRotation, kMaxNeighbours> rotation;
   std::array<float, kMaxNeighbours> weight;
   int count = 0;
 };
 
+/// How much a guide counts beside the nearest one, by the cosine of the angle between them: 1 up to 40
+/// degrees, 0 from 60 degrees.
+float agreement(float cosine) {
+  constexpr float kFull = 0.76604444f, kNone = 0.5f;
+  const float x = std::clamp((cosine - kNone) / (kFull - kNone), 0.0f, 1.0f);
+  return x * x * (3 - 2 * x);
+}
+
 /// The guides near a position and their weights, which sum to 1; empty when no guide is near.
-Weights find_weights(const RootGrid& grid, const V3f& position, const V3f& normal, int neighbours) {
+Weights find_weights(const RootGrid& grid, const GuideSet& guides, const V3f& position, const V3f& normal,
+                     int neighbours) {
   Weights w;
   const int found = grid.nearest(position, normal, neighbours + 1, w.guide.data());
   w.count = std::min(found, neighbours);
   const float radius = found > neighbours ? w.guide[static_cast<size_t>(neighbours)].distance : grid.radius();
+  const auto count = static_cast<size_t>(w.count);
   float total = 0;
-  for (int i = 0; i < w.count; ++i) {
-    const auto k = static_cast<size_t>(i);
+  for (size_t k = 0; k < count; ++k) {
     const float x = radius > 0 ? std::max(0.0f, 1.0f - w.guide[k].distance / radius) : 0.0f;
     w.weight[k] = x * x;
     total += w.weight[k];
   }
   // All equally far: equal weights.
-  for (int i = 0; i < w.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    w.weight[k] = total > 1e-12f ? w.weight[k] / total : 1.0f / static_cast<float>(w.count);
+  if (!(total > 1e-12f)) std::fill_n(w.weight.begin(), count, 1.0f);
+  V3f nearest;
+  total = 0;
+  for (size_t k = 0; k < count; ++k) {
+    const size_t guide = w.guide[k].index;
+    w.rotation[k] = GuideRotation(guides.normals()[guide], normal);
+    const V3f lean = w.rotation[k](guides.lean(guide));
+    if (k == 0) nearest = lean;
+    if (k > 0) w.weight[k] *= agreement(nearest.dot(lean));
+    total += w.weight[k];
   }
+  for (size_t k = 0; k < count; ++k) w.weight[k] /= total;
   return w;
 }
 
@@ -65,14 +102,19 @@ const Schema<GuidesParams>& GuidesParams::schema() {
           {.help = "Factor on the file's positions", .min = 0, .above_min = true});
     s.key("translate", &GuidesParams::translate,
           {.unit = "scene units", .help = "Offset of the file's positions, added after `scale`"});
-    s.key("neighbours", &GuidesParams::neighbours,
-          {.help = "Number of guides that shape a strand", .min = 1, .max = kMaxNeighbours});
+    s.key(
+        "neighbours", &GuidesParams::neighbours,
+        {.help = "Number of guides that shape a strand. Of these, guides that lean more than 60 degrees away "
+                 "from the nearest one do not count, so that guides combed apart part the hair; up to 40 "
+                 "degrees, they count fully",
+         .min = 1,
+         .max = kMaxNeighbours});
     s.key("radius", &GuidesParams::radius,
           {.unit = "scene units",
            .help = "Maximum distance from a guide to a strand that it shapes",
            .min = 0,
            .above_min = true,
-           .default_text = "4 times the median distance between guides"});
+           .default_text = "4 times the median distance between guides, copies aside"});
     s.key(
         "growth_radius", &GuidesParams::spread,
         {.unit = "scene units",
@@ -124,22 +166,16 @@ void Guides::apply(StrandBatch& batch) const {
   for (size_t s = 0; s < batch.count; ++s) {
     const V3f normal = vector_at(batch.rest.normal, s);
     const Weights weights =
-        find_weights(near_, vector_at(batch.rest.position, s), normal, params_.neighbours);
+        find_weights(near_, *guides_, vector_at(batch.rest.position, s), normal, params_.neighbours);
     if (weights.count == 0) continue;
     std::fill(shape.begin(), shape.end(), V3f(0));
     float length = 0;
-    for (int i = 0; i < weights.count; ++i) {
-      const size_t guide = weights.guide[static_cast<size_t>(i)].index;
-      const float weight = weights.weight[static_cast<size_t>(i)];
-      const V3f& from = guides_->normals()[guide];
-      const Rotation rotation = rotation_between(from, normal, any_perpendicular(from));
-      const float sine = std::sin(rotation.angle), cosine = std::cos(rotation.angle);
-      for (int p = 1; p < points; ++p) {
-        const V3f& v = guides_->offset(guide, p);
-        shape[static_cast<size_t>(p)] += (v * cosine + rotation.axis.cross(v) * sine +
-                                          rotation.axis * (rotation.axis.dot(v) * (1 - cosine))) *
-                                         weight;
-      }
+    for (size_t i = 0; i < static_cast<size_t>(weights.count); ++i) {
+      const size_t guide = weights.guide[i].index;
+      const float weight = weights.weight[i];
+      if (weight == 0) continue;
+      for (int p = 1; p < points; ++p)
+        shape[static_cast<size_t>(p)] += weights.rotation[i](guides_->offset(guide, p)) * weight;
       length += guides_->length(guide) * weight;
     }
     // A mean of different directions is shorter than the mean of the lengths.

@@ -35,15 +35,19 @@ struct GuidesParams {
 /// strand's root has the weight (1 - d / R)^2.
 ///
 /// R is the distance of the nearest guide that is not used, but at most the radius. The weight of a guide
-/// therefore becomes 0 before another guide takes its place, so the coat is continuous. A strand without a
-/// guide within the radius stays unchanged.
+/// therefore becomes 0 before another guide takes its place. A strand without a guide within the radius stays
+/// unchanged.
+///
+/// The mean of guides that lean apart would stand upright between them. Therefore a guide counts only as far
+/// as it leans like the nearest guide: fully up to 40 degrees, not at all from 60 degrees. So the coat is
+/// continuous where nearby guides lean within 40 degrees of each other, and parts where they lean apart.
 class Guides final : public OperatorOf<GuidesParams> {
  public:
   static constexpr const char* kName = "guides";
   using OperatorOf::OperatorOf;
 
   OperatorTraits traits() const override {
-    return {.name = kName, .restricts_coverage = params_.spread.has_value()};
+    return {.name = kName, .version = 2, .restricts_coverage = params_.spread.has_value()};
   }
   void prepare(const PrepareContext& context) override;
   float coverage(const V3f& rest_position, const V3f& normal) const override;

@@ -18,6 +18,9 @@ class RootGrid {
     float distance = 0;
   };
 
+  /// Whether two normals differ by at most 60 degrees.
+  static bool same_side(const V3f& a, const V3f& b) { return a.dot(b) >= 0.5f; }
+
   RootGrid() = default;
   /// `positions` and `normals` describe the points. `radius` is the max distance of searches.
   RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float radius);
@@ -68,7 +71,7 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
           const V3f& p = positions_[i];
           const V3f d = p - position;
           const float distance2 = d.dot(d);
-          if (distance2 > radius_ * radius_ || normals_[i].dot(normal) < 0.5f) continue;
+          if (distance2 > radius_ * radius_ || !same_side(normals_[i], normal)) continue;
           // Several cells may share a bucket: skip places of other cells.
           if (cell(p.x) != x || cell(p.y) != y || cell(p.z) != z) continue;
           visit(i, distance2);

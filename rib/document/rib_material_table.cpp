@@ -51,7 +51,8 @@ std::optional<Value> filled(const Value& value, const RibMaterial& material) {
 RibMaterialTable::RibMaterialTable(const std::filesystem::path& path) {
   Problems problems;
   DocumentLimits limits;
-  std::optional<Value> table = read_yaml(read_file(path, kMaxBytes), path.string(), {}, limits, problems);
+  std::optional<Value> table =
+      read_yaml(read_text_file(path, kMaxBytes), path.string(), {}, limits, problems);
   problems.throw_if_any();
   if (!table || !table->is_map())
     throw Error(ErrorKind::kInput, {path.string(), 0, 0},

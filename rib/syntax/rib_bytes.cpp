@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "base/file.h"
 #include "base/open_file.h"
 
 namespace pelage {
@@ -42,9 +43,11 @@ RibBytes::RibBytes(const std::filesystem::path& path)
   const auto size = std::clamp<uintmax_t>(std::filesystem::file_size(path, ignored), 1 << 12, 1 << 17);
   gzbuffer(stream_->file, static_cast<unsigned>(size));
   buffer_.resize(size);
-  constexpr std::string_view kPointer = "version https://git-lfs";
-  if (fill() && end_ >= kPointer.size() && std::memcmp(buffer_.data(), kPointer.data(), kPointer.size()) == 0)
-    throw Error(ErrorKind::kInput, {*file_, 0, 0}, "a git-lfs pointer, not the file itself");
+  fill();
+  const std::string_view beginning(reinterpret_cast<const char*>(buffer_.data()), end_);
+  if (const std::string_view foreign = foreign_text(beginning); !foreign.empty())
+    throw Error(ErrorKind::kInput, {*file_, 0, 0}, std::string(foreign));
+  if (beginning.starts_with(kUtf8Mark)) next_ = kUtf8Mark.size();
 }
 
 RibBytes::~RibBytes() = default;

@@ -18,7 +18,8 @@ class RibBytes {
  public:
   static constexpr int kEnd = -1;
 
-  /// Throws Error (kInput) when the file cannot be read, is not a regular file or is a git-lfs pointer.
+  /// Throws Error (kInput) when the file cannot be read, is not a regular file or is what
+  /// foreign_text() knows.
   explicit RibBytes(const std::filesystem::path& path);
   ~RibBytes();
 

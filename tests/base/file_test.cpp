@@ -68,6 +68,28 @@ TEST(ReadFile, RefusesMoreThanTheLimitWithoutReadingIt) {
   EXPECT_THROW(read_file(folder.path() / "five", 4), Error);
 }
 
+TEST(ReadTextFile, KnowsTextInOtherClothes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "f";
+  const auto contents = [&](const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    return read_text_file(path);
+  };
+  const auto refusal = [&](const std::string& bytes) {
+    return std::string(error_of([&] { contents(bytes); }).what());
+  };
+  for (const char* text : {"", "v", "v 0 0 0", "\xef\xbb"}) {
+    EXPECT_EQ(contents(text), text);
+    EXPECT_EQ(contents("\xef\xbb\xbf" + std::string(text)), text) << "without the byte-order mark";
+  }
+  const std::string utf16 = ": is text in UTF-16; save it as UTF-8";
+  for (const std::string& bytes : {std::string("\xff\xfev\0", 4), std::string("\xfe\xff\0v", 4),
+                                   std::string("v\0 \0", 4), std::string("\0v\0 ", 4)})
+    EXPECT_EQ(refusal(bytes), path.string() + utf16);
+  EXPECT_EQ(refusal("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"),
+            path.string() + ": is a git-lfs pointer, not the file itself");
+}
+
 TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFileAlone) {
   const TemporaryFolder folder;
   const auto target = folder.path() / "target", link = folder.path() / "link", pipe = folder.path() / "pipe";

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -46,6 +48,58 @@ TEST_F(ConvertCommandTest, KeepsStrandsAndSaysWhatItDropped) {
   ASSERT_EQ(file.strands.strand_count(), 2u);
   EXPECT_EQ(file.strands.point(4).x, 2);
   EXPECT_EQ(file.strands.point(7).y, 0.75f);
+}
+
+/// Converts to a file of this name. Returns what standard error got.
+class ConvertLossesTest : public ConvertCommandTest {
+ protected:
+  std::string errors(const std::string& input, const std::string& output) {
+    options_.input = (folder_.path() / input).string();
+    options_.output = (folder_.path() / output).string();
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_convert(options_), 0);
+    out_ = testing::internal::GetCapturedStdout();
+    return testing::internal::GetCapturedStderr();
+  }
+  std::string out_;
+};
+
+TEST_F(ConvertLossesTest, FixedPointsAndMissingWidthsStayAsTheyAre) {
+  StrandArrays a = three_strands().arrays();
+  a.attributes.push_back({"movable", AttributeClass::kPerPoint, 1, {0, 0, 1, 1, 0, 0, 0, 0, 0, 0.5f, 1, 0}});
+  a.attributes.push_back({"opacity", AttributeClass::kPerPoint, 1, std::vector<float>(12, 0.25f)});
+  write_strands(folder_.path() / "a.tfx", Strands(std::move(a)), false);
+  EXPECT_EQ(errors("a.tfx", "b.tfx"), "");
+  EXPECT_EQ(out_, options_.output + ": 2 strands without widths, 1 dropped\n");
+  const StrandFile back = read_strands(options_.output, {{}, {}, true});
+  EXPECT_GT(back.assumed_width, 0);
+  EXPECT_EQ(back.strands.find_attribute("movable")->values, (std::vector<float>{0, 0, 1, 1, 0, 0.5f, 1, 0}));
+  const std::string lost = errors("b.tfx", "c.hair");
+  EXPECT_NE(lost.find("c.hair: .hair files cannot hold which points are fixed"), std::string::npos) << lost;
+  EXPECT_EQ(std::count(lost.begin(), lost.end(), '\n'), 1) << lost;
+  EXPECT_GT(read_strands(options_.output).assumed_width, 0);
+  EXPECT_EQ(errors("c.hair", "d.tfx"), "");
+  const Strands again = read_strands(options_.output).strands;
+  EXPECT_EQ(again.find_attribute("opacity")->values, std::vector<float>(8, 0.25f));
+  EXPECT_EQ(errors("d.tfx", "e.hair"), "") << "only roots are fixed, as everywhere";
+  options_.default_width = 0.5f;
+  EXPECT_EQ(errors("d.tfx", "f.hair"), "");
+  EXPECT_EQ(read_strands(options_.output).strands.radius(3), 0.25f);
+}
+
+TEST_F(ConvertLossesTest, WarnOnceOfAllThatIsLost) {
+  StrandArrays a = three_strands().arrays();
+  a.points[3] = 0.02f;
+  write_strands(folder_.path() / "a.hair", Strands(a));
+  const std::string widths = errors("a.hair", "b.tfx");
+  EXPECT_NE(widths.find("b.tfx: .tfx files cannot hold widths that vary along strands"), std::string::npos)
+      << widths;
+  a.root_uv.resize(3);
+  a.attributes.push_back({"uv", AttributeClass::kPerPoint, 2, std::vector<float>(24, 0.5f)});
+  write_strands(folder_.path() / "c.tfx", Strands(a));
+  const std::string several = errors("c.tfx", "d.hair");
+  EXPECT_NE(several.find("texture coordinates of roots, the attribute uv\n"), std::string::npos) << several;
 }
 
 TEST_F(ConvertCommandTest, RefusesWhatIsNoStrandFile) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,36 @@ class GrowExportTest : public testing::Test {
 
 TEST_F(GrowExportTest, WritesAllStrandsWhateverThePicturesSize) {
   for (const int width : {1280, 32}) EXPECT_EQ(strands(grown(width, false)), 400u) << width;
+}
+
+TEST_F(GrowExportTest, OneGroomOfTwoMayHaveColor) {
+  // One of the two characters moves.
+  scene_.write("two.yaml", R"(include: scene.yaml
+grooms:
+  red: {skin: still, strands: 30, operators: [{length: {value: 0.4}}, {color: {value: [1, 0, 0]}}]}
+characters:
+  post: {parts: [{skin: still, material: hide, grooms: {red: fur}}]}
+)");
+  Options options;
+  options.command = Command::kGrow;
+  options.input = scene_.path("two.yaml");
+  options.output = scene_.path("two.hair");
+  options.progress = ProgressStyle::kQuiet;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_grow(options), 0);
+  testing::internal::GetCapturedStdout();
+  const std::string warnings = testing::internal::GetCapturedStderr();
+  EXPECT_NE(warnings.find("two.hair: strands of walker.0.coat have no color; the file says white"),
+            std::string::npos)
+      << warnings;
+  const Strands strands = read_strands(options.output).strands;
+  ASSERT_EQ(strands.strand_count(), 430u);
+  const StrandAttribute* color = strands.find_attribute("color");
+  ASSERT_NE(color, nullptr);
+  EXPECT_EQ(std::count(color->values.begin(), color->values.end(), 0.0f) % 60, 0)
+      << "red has no green and blue";
+  EXPECT_GT(std::count(color->values.begin(), color->values.end(), 0.0f), 0);
 }
 
 TEST_F(GrowExportTest, WritesThoseOfThePicturesLevelOfDetailWhereAsked) {

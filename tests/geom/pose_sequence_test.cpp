@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/temporary_folder.h"
+#include "tests/geom/cages.h"
 
 namespace pelage {
 namespace {
@@ -25,11 +26,12 @@ class PoseSequenceTest : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::vector<std::filesystem::path> files_;
+  const MeshOrder triangle_ = mesh_order(make_cage({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}}));
   MemoryLedger ledger_;
 };
 
 TEST_F(PoseSequenceTest, BlendsBetweenPosesAndHoldsTheEnds) {
-  const PoseSequence poses(files_, 1, false, 3, ledger_);
+  const PoseSequence poses(files_, 1, false, triangle_, ledger_);
   EXPECT_EQ(height(poses, 1), 0);
   EXPECT_FLOAT_EQ(height(poses, 2.25), 1.25f);
   EXPECT_EQ(height(poses, -7.5), 0);
@@ -37,7 +39,7 @@ TEST_F(PoseSequenceTest, BlendsBetweenPosesAndHoldsTheEnds) {
 }
 
 TEST_F(PoseSequenceTest, CyclesInBothDirections) {
-  const PoseSequence poses(files_, 1, true, 3, ledger_);
+  const PoseSequence poses(files_, 1, true, triangle_, ledger_);
   EXPECT_EQ(height(poses, 4), 0);
   EXPECT_FLOAT_EQ(height(poses, 3.5), 1.0f);  // halfway from the last pose to the first
   EXPECT_EQ(height(poses, 0), 2);
@@ -46,7 +48,7 @@ TEST_F(PoseSequenceTest, CyclesInBothDirections) {
 
 TEST_F(PoseSequenceTest, TakesAnyNumber) {
   for (bool cycle : {false, true}) {
-    const PoseSequence poses(files_, 1, cycle, 3, ledger_);
+    const PoseSequence poses(files_, 1, cycle, triangle_, ledger_);
     for (double pose :
          {1e18, -1e18, 1e300, -1e300, 1 - 1e-17, double(INFINITY), -double(INFINITY), double(NAN)}) {
       const float y = height(poses, pose);
@@ -56,7 +58,7 @@ TEST_F(PoseSequenceTest, TakesAnyNumber) {
 }
 
 TEST_F(PoseSequenceTest, PosesMayBeFramesApart) {
-  const PoseSequence poses(files_, 1, true, 3, ledger_, 4);
+  const PoseSequence poses(files_, 1, true, triangle_, ledger_, 4);
   EXPECT_EQ(height(poses, 1), 0);
   EXPECT_EQ(height(poses, 3), 0.5f);
   EXPECT_EQ(height(poses, 5), 1);
@@ -64,7 +66,7 @@ TEST_F(PoseSequenceTest, PosesMayBeFramesApart) {
 }
 
 TEST_F(PoseSequenceTest, ReadsEachFileOnce) {
-  const PoseSequence poses(files_, 1, false, 3, ledger_);
+  const PoseSequence poses(files_, 1, false, triangle_, ledger_);
   EXPECT_EQ(ledger_.current(MemoryTag::kSkins), 0);
   const float first = height(poses, 1.5);
   EXPECT_EQ(ledger_.current(MemoryTag::kSkins), static_cast<int64_t>(2 * 3 * sizeof(V3f)));
@@ -73,15 +75,32 @@ TEST_F(PoseSequenceTest, ReadsEachFileOnce) {
   EXPECT_THROW(poses.positions(3), Error);  // was not needed before
 }
 
+TEST_F(PoseSequenceTest, KeepsNoMoreThanTheLimitHasRoomFor) {
+  const auto pose = static_cast<int64_t>(3 * sizeof(V3f));
+  ledger_.set_limit(static_cast<uint64_t>(100 * pose));
+  const MemoryCharge others(ledger_, MemoryTag::kFilm, 98 * pose);
+  const PoseSequence poses(files_, 1, false, triangle_, ledger_);
+  for (const double at : {1.5, 2.5, 1.0}) EXPECT_EQ(height(poses, at), at - 1);
+  EXPECT_EQ(ledger_.peak(MemoryTag::kSkins), 2 * pose);
+  const MemoryCharge more(ledger_, MemoryTag::kFilm, 2 * pose);
+  try {
+    poses.positions(2);
+    ADD_FAILURE() << "there is no room for another pose";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_NE(std::string(error.what()).find("pose1.obj"), std::string::npos);
+  }
+}
+
 TEST_F(PoseSequenceTest, NamesTheFileThatIsMissingOrDoesNotFit) {
   files_[1] = folder_.path() / "nowhere.obj";
   try {
-    PoseSequence(files_, 1, false, 3, ledger_).positions(2);
+    PoseSequence(files_, 1, false, triangle_, ledger_).positions(2);
     FAIL() << "a missing pose was accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("nowhere.obj"), std::string::npos);
   }
-  EXPECT_THROW(PoseSequence(files_, 1, false, 4, ledger_).positions(1), Error);
+  EXPECT_THROW(PoseSequence(files_, 1, false, {4, triangle_.faces}, ledger_).positions(1), Error);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(StrandMerge, OrdersByIdAndKeepsEveryStrand) {
   }
 }
 
-TEST(StrandMerge, WidensAttributeClassesAndDropsWhatSomeBatchLacks) {
+TEST(StrandMerge, WidensAttributeClassesAndKeepsWhatSomeBatchLacks) {
   StrandArrays a = batch({0});
   a.attributes.push_back({"color", AttributeClass::kConstant, 1, {0.5f}});
   a.attributes.push_back({"only_here", AttributeClass::kConstant, 1, {1.0f}});
@@ -45,7 +45,10 @@ TEST(StrandMerge, WidensAttributeClassesAndDropsWhatSomeBatchLacks) {
   ASSERT_NE(color, nullptr);
   EXPECT_EQ(color->frequency, AttributeClass::kPerPoint);
   EXPECT_EQ(color->values, (std::vector<float>{0.5f, 0.5f, 0.1f, 0.2f}));
-  EXPECT_EQ(merged.find_attribute("only_here"), nullptr);
+  const StrandAttribute* only_here = merged.find_attribute("only_here");
+  ASSERT_NE(only_here, nullptr);
+  EXPECT_EQ(only_here->frequency, AttributeClass::kPerStrand);
+  EXPECT_EQ(only_here->values, (std::vector<float>{1, 0}));
 }
 
 TEST(StrandMerge, DifferentConstantsBecomePerStrand) {
@@ -57,6 +60,19 @@ TEST(StrandMerge, DifferentConstantsBecomePerStrand) {
   const StrandAttribute* tint = merged.find_attribute("tint");
   ASSERT_NE(tint, nullptr);
   EXPECT_EQ(tint->values, (std::vector<float>{0.5f, 0.75f}));
+}
+
+TEST(StrandMerge, StrandsWithoutColorAreWhite) {
+  StrandArrays b = batch({1});
+  b.attributes.push_back({"color", AttributeClass::kPerPoint, 3, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}});
+  b.attributes.push_back({"odd", AttributeClass::kConstant, 2, {1, 2}});
+  StrandArrays c = batch({2});
+  c.attributes.push_back({"odd", AttributeClass::kConstant, 1, {1}});
+  const Strands parts[] = {Strands(batch({0})), Strands(b), Strands(c)};
+  const Strands merged = merge(parts);
+  EXPECT_EQ(merged.find_attribute("color")->values,
+            (std::vector<float>{1, 1, 1, 1, 1, 1, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(merged.find_attribute("odd"), nullptr) << "different numbers of components";
 }
 
 TEST(StrandMerge, OfNothingIsNothing) { EXPECT_EQ(merge({}).strand_count(), 0u); }

@@ -182,6 +182,8 @@ TEST(Exr, RefusesWhatIsNotOne) {
   EXPECT_EQ(message_of(folder.path()), ": is not a regular file");
   std::ofstream(folder.path() / "text.exr") << "this is no picture";
   EXPECT_EQ(message_of(folder.path() / "text.exr"), ": is not an EXR file");
+  std::ofstream(folder.path() / "pointer.exr") << "version https://git-lfs.github.com/spec/v1\n";
+  EXPECT_EQ(message_of(folder.path() / "pointer.exr"), ": is a git-lfs pointer, not the file itself");
   std::ofstream(folder.path() / "empty.exr") << "";
   EXPECT_EQ(message_of(folder.path() / "empty.exr"), ": is not an EXR file");
 }

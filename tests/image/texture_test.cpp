@@ -65,17 +65,29 @@ TEST_F(Textures, HaveTheirFirstRowAtTheTop) {
   EXPECT_EQ(texture->channel(0.25f, 0.5f, 2), 0.5f);
 }
 
-TEST_F(Textures, RepeatInBothDirections) {
-  Image image{3, 2, 1, {0, 1, 2, 3, 4, 5}};
-  const Texture texture(std::move(image));
+TEST_F(Textures, RepeatInBothDirectionsIfAsked) {
+  constexpr auto kRepeat = TextureWrap::kRepeat;
+  const Texture texture(Image{3, 2, 1, {0, 1, 2, 3, 4, 5}});
   for (float u : {0.05f, 0.4f, 0.99f}) {
     for (float v : {0.02f, 0.6f}) {
-      EXPECT_NEAR(texture.channel(u, v, 0), texture.channel(u + 2, v, 0), 1e-5f);
-      EXPECT_NEAR(texture.channel(u, v, 0), texture.channel(u, v - 3, 0), 1e-5f);
+      EXPECT_NEAR(texture.channel(u, v, 0, kRepeat), texture.channel(u + 2, v, 0, kRepeat), 1e-5f);
+      EXPECT_NEAR(texture.channel(u, v, 0, kRepeat), texture.channel(u, v - 3, 0, kRepeat), 1e-5f);
     }
   }
-  EXPECT_FLOAT_EQ(texture.channel(0, 0.75f, 0), 1) << "half of the first and half of the last column";
-  EXPECT_EQ(texture.channel(-1e-9f, 1e-9f, 0), texture.channel(0, 0, 0));
+  EXPECT_FLOAT_EQ(texture.channel(0, 0.75f, 0, kRepeat), 1)
+      << "half of the first and half of the last column";
+  EXPECT_EQ(texture.channel(-1e-9f, 1e-9f, 0, kRepeat), texture.channel(0, 0, 0, kRepeat));
+}
+
+TEST_F(Textures, EndAtTheirBorder) {
+  const Texture texture(Image{3, 2, 1, {0, 1, 2, 3, 4, 5}});
+  for (const float outside : {0.0f, -1e-7f, -0.3f, -4.0f}) {
+    EXPECT_EQ(texture.channel(outside, 0.75f, 0), 0) << "the first column alone";
+    EXPECT_EQ(texture.channel(1 - outside, 0.75f, 0), 2) << "the last column alone";
+    EXPECT_EQ(texture.channel(0.5f, outside, 0), 4) << "the lower row alone";
+    EXPECT_EQ(texture.channel(0.5f, 1 - outside, 0), 1) << "the upper row alone";
+  }
+  EXPECT_FLOAT_EQ(texture.channel(1.0f / 3, 0.5f, 0), 2) << "the middle of four texels";
   EXPECT_EQ(texture.color(0.5f, 0.75f), Rgb(1)) << "grey is spread";
   EXPECT_TRUE(std::isfinite(texture.channel(std::nanf(""), INFINITY, 0)));
 }
@@ -118,7 +130,7 @@ TEST_F(Textures, AreNeverBlackForWantOfAFile) {
   EXPECT_EQ(message_of(write("empty.png", "")), "is empty");
   EXPECT_EQ(
       message_of(write("lfs.hdr", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n")),
-      "is a git-lfs pointer, not the image itself");
+      "is a git-lfs pointer, not the file itself");
   EXPECT_NE(message_of(write("text.png", "no picture at all")), "");
   EXPECT_NE(message_of(write("short.ppm", "P6 4 4 255\nabc")), "");
   EXPECT_EQ(ledger.current(MemoryTag::kTextures), 0);

@@ -34,11 +34,12 @@ characters:
 )");
     const SceneDescription scene = load_scene(files_.path("scene.yaml"), {});
     std::map<std::string, Assets::Skin> skins;
-    skins["mapped"].cage.face_uv = {0, 0, 0};
+    skins["mapped"].cage.uv = uv_;
+    skins["mapped"].cage.face_uv = {0, 1, 2};
     skins["cube"];
     Refusal refusal;
     try {
-      check_maps(scene, skins);
+      check_maps(scene, skins, progress_);
     } catch (const Error& error) {
       refusal.text = error.what();
       for (const Problem& problem : error.problems()) refusal.lines.push_back(problem.position.line);
@@ -46,7 +47,14 @@ characters:
     return refusal;
   }
 
+  struct Warnings final : NoProgress {
+    void warn(std::string_view line) override { lines.emplace_back(line); }
+    std::vector<std::string> lines;
+  };
+
   SmallScene files_;
+  std::vector<V2f> uv_{{0, 0}, {1, 0}, {1.0001f, 1}};
+  Warnings progress_;
 };
 
 using Lines = std::vector<int>;
@@ -94,6 +102,20 @@ TEST_F(MapCheckTest, AcceptsWhatNeedsNone) {
                     "{ramp: {along: y, knots: [[0, 1], [1, 0]]}}")
                 .lines,
             Lines{});
+}
+
+TEST_F(MapCheckTest, WarnsOnceWhereAMapEnds) {
+  const std::string map = "{map: spots.png}", repeated = "{map: spots.png, wrap: repeat}";
+  const std::string ramp = "{ramp: {along: u, knots: [[0, 0.5], [1, 1]]}}";
+  refusal("skin: mapped, strands: 9, density: " + map, map, map);
+  EXPECT_TRUE(progress_.lines.empty()) << "rounded texture coordinates";
+  uv_ = {{0, 0}, {3, 0}, {2, 0.5f}};
+  refusal("skin: mapped, strands: 9, density: " + repeated, repeated, ramp);
+  EXPECT_TRUE(progress_.lines.empty());
+  refusal("skin: mapped, strands: 9", map);
+  ASSERT_EQ(progress_.lines.size(), 1u);
+  for (const char* part : {"scene.yaml:6:", "map spots.png", "skin 'mapped'", "(0, 0) to (3, 0.5)", "UDIM"})
+    EXPECT_NE(progress_.lines[0].find(part), std::string::npos) << progress_.lines[0];
 }
 
 TEST_F(MapCheckTest, StrandsOnNoSkinHaveNone) {

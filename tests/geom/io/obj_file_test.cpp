@@ -73,6 +73,12 @@ TEST(ObjFile, ReadsWhatItIsFor) {
   EXPECT_GT(mesh.bytes(), 5 * sizeof(V3f));
 }
 
+TEST(ObjFile, AByteOrderMarkHidesNoVertex) {
+  EXPECT_EQ(read_text("\xef\xbb\xbf" + kTriangle + "f 1 2 3\n").positions.size(), 3u);
+  EXPECT_EQ(problems_of("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"),
+            (std::vector<std::string>{" is a git-lfs pointer, not the file itself"}));
+}
+
 TEST(ObjFile, ReadsTagsByIndicesOfTheWholeFile) {
   const ControlMesh mesh = read_text(
       "t crease 2/1/0 0 1 3.5\n"  // before what they refer to
@@ -241,14 +247,27 @@ TEST(ObjFile, SurvivesDamage) {
 TEST(ObjFile, ReadsPositionsOfAPose) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "pose.obj";
-  std::ofstream(path) << kTriangle << "f 1 2 77\n";
-  EXPECT_EQ(read_obj_positions(path, 3).at(1), V3f(1, 0, 0));
-  try {
-    read_obj_positions(path, 4);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), path.string() + ": has 3 vertices, but its cage has 4");
-  }
+  const auto refusal = [&](const std::string& text, const MeshOrder& order) -> std::string {
+    std::ofstream(path) << text;
+    try {
+      EXPECT_EQ(read_obj_positions(path, order).at(1), V3f(1, 0, 0));
+      return "";
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(path.string().size());
+    }
+  };
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const MeshOrder order = mesh_order(read_text(square + "vt 0 0\nf 1 2 3\nf 1/1 3/1 4/1\n"));
+  EXPECT_EQ(refusal(square, order), "") << "no faces";
+  EXPECT_EQ(refusal(square + "f 1 2 3\nf -4//7 3 -1\n", order), "") << "other texture coordinates";
+  EXPECT_EQ(refusal(kTriangle + "f 1 2 3\n", order), ": has 3 vertices, but its cage has 4");
+  // Turned by half a turn: as a set, the faces are the same.
+  for (const char* faces :
+       {"f 3 4 1\nf 3 1 2\n", "f 1 3 4\nf 1 2 3\n", "f 1 2 3\n", "f 1 2 3 4\n", "f 1 2 77\n"})
+    EXPECT_NE(refusal(square + faces, order).find("vertices may be in another order"), std::string::npos)
+        << faces;
+  EXPECT_NE(refusal(square + "f 1 x 3\n", order).find(":5:5: expected the number of a vertex"),
+            std::string::npos);
 }
 
 TEST(ObjFile, ReadsRealCages) {

@@ -14,25 +14,45 @@ namespace {
 
 class GuidesTest : public OperatorTest {
  protected:
-  /// Writes a guide on every `step`-th follicle: straight along the normal, of the length that `length(root)`
-  /// gives.
-  template <class Length>
-  void write_guides(size_t step, const Length& length) {
+  /// Writes a guide on every `step`-th follicle, and copies of all of them: straight from the root to
+  /// root + tip(root, normal). `place` moves the points of each copy.
+  template <class Tip, class Place>
+  void write_guides(size_t step, const Tip& tip, int copies, const Place& place) {
     StrandArrays arrays;
     arrays.first_point.push_back(0);
-    for (size_t f = 0; f < follicles_.size(); f += step) {
-      const RootAddress& address = follicles_.root(f);
-      const V3f root = rest_->evaluate(address.face, address.u, address.v).position;
-      const V3f normal = rest_->frame(address.face, address.u, address.v).normal;
-      roots_.push_back(root);
-      for (int p = 0; p < 5; ++p) {
-        const V3f point = root + normal * (length(root) * static_cast<float>(p) / 4);
-        arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
+    for (int copy = 0; copy < copies; ++copy) {
+      for (size_t f = 0; f < follicles_.size(); f += step) {
+        const RootAddress& address = follicles_.root(f);
+        const V3f root = rest_->evaluate(address.face, address.u, address.v).position;
+        const V3f to = tip(root, rest_->frame(address.face, address.u, address.v).normal);
+        for (int p = 0; p < 5; ++p) {
+          const V3f point = place(root + to * (static_cast<float>(p) / 4), copy);
+          arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
+        }
+        arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
+        arrays.ids.push_back(arrays.ids.size());
       }
-      arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
-      arrays.ids.push_back(arrays.ids.size());
     }
     write_strands(file_, Strands(std::move(arrays)));
+  }
+  /// Guides along the normals, of the length that `length(root)` gives.
+  template <class Length>
+  void write_guides(size_t step, const Length& length) {
+    const auto tip = [&](const V3f& root, const V3f& normal) { return normal * length(root); };
+    write_guides(step, tip, 1, [](const V3f& point, int) { return point; });
+  }
+  /// Random strands lie along x; with the operator, they must be as `length` says.
+  template <class Length>
+  void expect_lengths(const Length& length, float tolerance) {
+    auto batch = straight();
+    for (size_t s = 0; s < batch->count; ++s) {
+      for (int p = 1; p < 8; ++p) batch->set_offset(p, s, V3f(0.1f * batch->along(p), 0, 0));
+    }
+    prepared<Guides>(params()).apply(*batch);
+    for (size_t s = 0; s < batch->count; ++s) {
+      EXPECT_NEAR(length_of(*batch, s), length(vector_at(batch->rest.position, s)), tolerance);
+      EXPECT_GT(batch->offset(7, s).normalized().dot(vector_at(batch->rest.normal, s)), 0.999f);
+    }
   }
 
   GuidesParams params() const {
@@ -49,15 +69,65 @@ class GuidesTest : public OperatorTest {
 TEST_F(GuidesTest, StrandsTakeShapeAndLengthOfNearbyGuides) {
   const auto length = [](const V3f& root) { return 1.0f + 0.5f * root.y; };
   write_guides(3, length);  // about 0.13 apart
-  const Guides op = prepared<Guides>(params());
-  auto batch = straight();
-  for (size_t s = 0; s < batch->count; ++s) {
-    for (int p = 1; p < 8; ++p) batch->set_offset(p, s, V3f(0.1f * batch->along(p), 0, 0));
+  expect_lengths(length, 0.08f);
+}
+
+TEST_F(GuidesTest, CopiesOfGuidesChangeNothing) {
+  const auto tip = [](const V3f& root, const V3f& normal) { return normal * (1 + 0.5f * root.y); };
+  for (const float apart : {0.0f, 1e-6f, 0.005f}) {
+    write_guides(3, tip, 3, [&](const V3f& point, int copy) {
+      return point + V3f(apart * static_cast<float>(copy), -apart * static_cast<float>(copy), 0);
+    });
+    SCOPED_TRACE(apart);
+    expect_lengths([](const V3f& root) { return 1 + 0.5f * root.y; }, 0.12f);
   }
-  op.apply(*batch);
-  for (size_t s = 0; s < batch->count; ++s) {
-    EXPECT_NEAR(length_of(*batch, s), length(vector_at(batch->rest.position, s)), 0.08f);
-    EXPECT_GT(batch->offset(7, s).normalized().dot(vector_at(batch->rest.normal, s)), 0.999f);
+  // A single guide, exported twice, shapes all strands.
+  write_guides(
+      follicles_.size(), [](const V3f&, const V3f& normal) { return normal * 2.0f; }, 2,
+      [](const V3f& point, int copy) { return point + V3f(1e-6f * static_cast<float>(copy), 0, 0); });
+  const GuidesParams near_by = params();
+  EXPECT_GT(GuideSet({near_by.file, {}, 1, V3f(0)}, context()).size(), 1u);
+  EXPECT_EQ(GuideSet({near_by.file, {}, 1, V3f(0)}, context()).spacing(), 0);
+}
+
+TEST_F(GuidesTest, GuidesOnTheOtherSideOfASheetAreFar) {
+  ControlMesh sheet = shapes::ball_cage();
+  for (V3f& position : sheet.positions) position.z *= 0.01f;
+  rest_ = shapes::surface_of(sheet);
+  FollicleOptions options;
+  options.count = 300;
+  follicles_ = FollicleTree::build(*rest_, options, job_);
+  const auto up = [](const V3f&, const V3f& normal) { return normal * 0.5f; };
+  write_guides(3, up, 2,
+               [](const V3f& point, int copy) { return copy ? V3f(point.x, point.y, -point.z) : point; });
+  EXPECT_GT(GuideSet({params().file, {}, 1, V3f(0)}, context()).spacing(), 0.03f);
+}
+
+TEST_F(GuidesTest, GuidesCombedApartPartTheHair) {
+  for (const float lean : {0.8f, 1.5f}) {  // 39 and 56 degrees to either side
+    const auto tip = [&](const V3f& root, const V3f& normal) {
+      const V3f side(root.x > 0 ? lean : -lean, 0, 0);
+      return (normal + side - normal * normal.dot(side)) * 0.4f;
+    };
+    write_guides(5, tip, 1, [](const V3f& point, int) { return point; });
+    const Guides op = prepared<Guides>(params());
+    int at_parting = 0;
+    for (size_t first = 0; first < follicles_.size(); first += kBlockStrands) {
+      auto batch = straight(first);
+      op.apply(*batch);
+      for (size_t s = 0; s < batch->count; ++s) {
+        const V3f root = vector_at(batch->rest.position, s), normal = vector_at(batch->rest.normal, s);
+        if (normal.z < 0.9f) continue;
+        const V3f offset = batch->offset(7, s);
+        const float sideways = offset.x - normal.x * normal.dot(offset);
+        EXPECT_GT(std::abs(sideways), 0.3f * lean) << "upright at x = " << root.x;
+        if (std::abs(root.x) > 0.3f) {
+          EXPECT_GT(sideways * root.x, 0);
+        }
+        at_parting += std::abs(root.x) < 0.05f;
+      }
+    }
+    EXPECT_GT(at_parting, 10);
   }
 }
 

@@ -44,6 +44,7 @@ TEST(RibLexer, ReadsText) {
   EXPECT_EQ(tokens("\"a\\n\\\"\\\\\\101\\\nb\""), "\"a\n\"\\Ab\"");
   EXPECT_EQ(tokens(""), "");
   EXPECT_EQ(tokens("# only a comment"), "");
+  EXPECT_EQ(tokens("\xef\xbb\xbf[1]"), "[ i1 ]") << "a byte-order mark";
 }
 
 TEST(RibLexer, ReadsEveryBinaryEncoding) {
@@ -140,6 +141,8 @@ TEST(RibLexer, RefusesWhatIsNoFile) {
   EXPECT_NE(error_of([&] {
               RibLexer lexer(files.write("version https://git-lfs.github.com/spec/v1\n"));
             }).find("git-lfs"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { RibLexer lexer(files.write(std::string("\xff\xfe#\0", 4))); }).find("UTF-16"),
             std::string::npos);
 }
 
