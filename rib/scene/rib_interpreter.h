@@ -55,9 +55,6 @@ struct RibDeferredArchive {
   Strands read(size_t batch, const StrandCounts& expected) const;
 };
 
-/// Returns the sizes of a batch.
-StrandCounts rib_counts(const Strands& strands);
-
 /// Executes the requests of RIB files. One instance reads one frame; all requests change its state or add to
 /// the scene.
 class RibInterpreter {
