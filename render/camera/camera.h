@@ -41,12 +41,15 @@ struct CameraRay {
 /// `motion_keys` evenly spaced times of the shutter, the position, the axes and the tangent of half the field
 /// of view are interpolated linearly, like geometry; the axes are then orthonormalised.
 ///
+/// World points are relative to the origin of the constructor; the matrices of the header are not.
+///
 /// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
  public:
   /// Throws Error (kInput) when, at any motion key, at the time of the frame or at the next frame, the camera
   /// is at its target or looks along its up vector.
-  Camera(const CameraParams& params, double frame, int width, int height);
+  /// `origin`: RenderScene::origin.
+  Camera(const CameraParams& params, double frame, int width, int height, const V3f& origin = V3f(0));
 
   /// Returns the ray through raster position (x, y) and lens position `lens` in [0, 1)^2 at shutter time
   /// `time` in [0, 1].
@@ -75,6 +78,7 @@ class Camera {
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
+  float shutter_open() const { return shutter_.x; }                 ///< in frames relative to the frame
   float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< duration of the shutter, in frames
   /// Shutter time (0 open, 1 close) of the frame itself; outside [0, 1] when the time of the frame is not
   /// within the shutter. 0 if the shutter has no duration.
@@ -85,19 +89,23 @@ class Camera {
   /// upper left corner and (1, 1) in the lower right corner. The matrices apply to row vectors: p * M.
   M44f world_to_camera() const;
   M44f world_to_ndc() const;
+  /// Value of the EXR attribute screenWindowWidth: width of what the picture shows at distance 1.
+  float screen_window_width() const { return 2 * frame_.tan_half * aspect(); }
 
  private:
   struct Pose {
     V3f position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
     float tan_half = 1;  ///< tangent of half the vertical field of view
   };
-  static Pose make_pose(const CameraParams& params, double frame);
+  float aspect() const { return static_cast<float>(width_) / static_cast<float>(height_); }
+  static Pose make_pose(const CameraParams& params, double frame, const V3f& origin);
   static Pose blend(const Pose& a, const Pose& b, float t);
   Pose pose_at(float time) const;
   std::optional<V3f> project(const Pose& pose, const V3f& world) const;
 
   std::vector<Pose> keys_;  // over the shutter; one key for a static camera
   Pose frame_, next_frame_;
+  V3f origin_;
   V2f shutter_;
   int width_, height_;
   float lens_radius_ = 0, focus_distance_ = 0;
