@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file.h"
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -106,6 +107,12 @@ std::string read_text_file(const std::filesystem::path& path, size_t limit) {
     throw Error(ErrorKind::kInput, {path.string(), 0, 0}, std::string(foreign));
   if (text.starts_with(kUtf8Mark)) text.erase(0, kUtf8Mark.size());
   return text;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
 }
 
 std::filesystem::path target_of_links(std::filesystem::path path) {

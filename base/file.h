@@ -29,6 +29,9 @@ std::string read_text_file(const std::filesystem::path& path, size_t limit = siz
 
 inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< byte-order mark of UTF-8
 
+/// Returns the extension of a file name in lower case, with its dot: ".exr" for "a.EXR".
+std::string lower_extension(const std::filesystem::path& path);
+
 /// Follows symbolic links as long as the last component of the path is one, and returns the resulting path.
 /// The target need not exist. Throws Error (kFailed) for cyclic links.
 std::filesystem::path target_of_links(std::filesystem::path path);

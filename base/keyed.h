@@ -40,6 +40,16 @@ class Keyed {
   std::vector<std::pair<double, T>> keys_;
 };
 
+/// Returns the values relative to `origin`. Subtracts it from each key: interpolated coordinates far from the
+/// origin would be rounded.
+template <class T>
+Keyed<T> relative_to(const Keyed<T>& values, const T& origin) {
+  std::vector<std::pair<double, T>> keys = values.keys();
+  if (keys.empty()) keys.push_back({0.0, T(0)});
+  for (auto& [frame, value] : keys) value -= origin;
+  return Keyed<T>(std::move(keys));
+}
+
 namespace detail {
 /// Reads the frames of a {keys: {frame: value}} block and appends each with its value to `frames`, sorted by
 /// frame. Sets `is_keyed` to whether `value` is a map. If not, appends nothing and returns true. Adds a

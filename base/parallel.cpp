@@ -82,6 +82,7 @@ struct Workers::Team {
   explicit Team(int count) : threads(count) {}
 
   void run(RangeDealer& dealer, const std::function<void(WorkRange)>& body) {
+    const std::lock_guard lock(one_loop);
     std::vector<std::thread> others;
     for (int i = 1; i < threads; ++i) others.emplace_back([&, i] { dealer.work(i, body); });
     dealer.work(0, body);
@@ -89,6 +90,7 @@ struct Workers::Team {
   }
 
   int threads;
+  std::mutex one_loop;
 };
 
 #else
@@ -96,7 +98,10 @@ struct Workers::Team {
 struct Workers::Team {
   explicit Team(int count) : threads(count), arena(count) {}
 
+  // With two loops, a thread that waits for one of them could run a part of the other, and TBB may add a
+  // thread to the arena. Both would use the scratch memory of a worker that is busy or does not exist.
   void run(RangeDealer& dealer, const std::function<void(WorkRange)>& body) {
+    const std::lock_guard lock(one_loop);
     arena.execute([&] {
       tbb::parallel_for(
           0, threads, [&](int) { dealer.work(tbb::this_task_arena::current_thread_index(), body); },
@@ -105,6 +110,7 @@ struct Workers::Team {
   }
 
   int threads;
+  std::mutex one_loop;
   tbb::task_arena arena;
 };
 

@@ -14,7 +14,9 @@ struct WorkRange {
   int worker = 0;
 };
 
-/// A pool of threads for parallel loops. Thread safety: a pool may run only one loop at a time.
+/// A pool of threads for parallel loops. Thread safety: all members may be called from any thread. A pool
+/// runs one loop at a time: other loops wait until it ends. A loop must not begin another loop of its own
+/// pool.
 ///
 /// After the first exception, a loop starts no further ranges. for_each() rethrows this exception once all
 /// workers have stopped. Results must not depend on the order of ranges, nor on `worker`, which may only

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file.h"
 #include "image/display_image.h"
 #include "world/frames.h"
 
@@ -62,8 +63,7 @@ void check(const FarmRequest& request, const SceneDescription& scene) {
                 fmt::format("{} frames x {} regions are more than {} tasks; plan parts of the shot",
                             request.frames.size(), request.columns * request.rows, kMaxTasks));
   }
-  const std::string ending = std::filesystem::path(request.output).extension().string();
-  if (ending != ".exr" && (pieces || !is_display_image(request.output))) {
+  if (lower_extension(request.output) != ".exr" && (pieces || !is_display_image(request.output))) {
     throw Error(ErrorKind::kArguments,
                 "-o " + request.output + ": pictures are written as .exr" +
                     (pieces ? " when they are divided into regions" : ", .png or .jpg"));

@@ -258,7 +258,8 @@ int run_grow(const Options& options) {
     require_kept(*assets, options);
     return 0;
   }
-  World world = run.stage("pose", [&] { return compose(scene, *assets, frame, run.job()); });
+  World world =
+      run.stage("pose", [&] { return compose(scene, *assets, frame, run.job(), CoordinateOrigin::kWorld); });
   run.statistics().world = world.counts;
 
   std::vector<Strands> grown;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cctype>
 #include <iostream>
 
+#include "base/file.h"
 #include "cli/commands.h"
 #include "cli/info.h"
 #include "cli/progress_display.h"
@@ -11,13 +10,6 @@
 
 namespace pelage {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 std::string describe_file(const Options& options) {
   const std::filesystem::path path = options.input;

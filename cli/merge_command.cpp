@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/file.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/run.h"
@@ -14,7 +15,7 @@ namespace pelage {
 
 int run_merge(const Options& options) {
   Run run(options);
-  if (std::filesystem::path(options.output).extension() != ".exr")
+  if (lower_extension(options.output) != ".exr")
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": merged pictures are written as .exr");
   const std::vector<std::filesystem::path> pieces(options.pieces.begin(), options.pieces.end());
   check_replaces_none("-o", options.output, pieces);

@@ -87,6 +87,7 @@ SceneDescription read_picture_scene(const Options& options, Progress& progress) 
       set("render.samples", std::min(whole.render.samples, kPreviewSamples));
   }
   SceneDescription scene = read_scene(resized, progress, use);
+  if (const auto dark = why_dark(scene)) progress.warn(options.input + ": " + *dark);
   if (picture.region) check_region(scene.image, scene.render, *picture.region);
   return scene;
 }

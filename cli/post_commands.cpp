@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/file.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/run.h"
@@ -20,7 +22,7 @@ namespace {
 using PostWork = std::function<PostReport(const std::string& input, const std::string& output, Run& run)>;
 
 void check_names(const Options& options, const FrameList& frames) {
-  if (std::filesystem::path(options.output).extension() != ".exr") {
+  if (lower_extension(options.output) != ".exr") {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": pictures are written as .exr");
   }
   if (options.frames.empty()) {
@@ -36,6 +38,21 @@ void check_names(const Options& options, const FrameList& frames) {
   }
 }
 
+/// Watches a sequence for motion vectors that are missing: all are zero, although the depths change.
+class VectorCheck {
+ public:
+  void add(const PostReport& report) {
+    moves_ |= report.longest > 0;
+    changes_ |= first_ && *first_ != report.depth_hash;
+    if (!first_) first_ = report.depth_hash;
+  }
+  bool suspects() const { return changes_ && !moves_; }
+
+ private:
+  std::optional<uint64_t> first_;
+  bool moves_ = false, changes_ = false;
+};
+
 /// Calls `work` for every frame of `--frames`, with the frame number inserted in the names of input and
 /// output. Without `--frames`, calls `work` once, with the names as they were given. Prints a line about each
 /// file that was written. Returns the exit code of the process. Throws Error (kArguments) when the names do
@@ -50,6 +67,7 @@ int run_post_frames(const Options& options, const PostWork& work) {
   for (const int frame : frames.frames)
     check_stats(options, {name_of(options.input, frame), name_of(options.output, frame)});
   prepare_output(name_of(options.output, frames.frames.front()));
+  VectorCheck vectors;
   for (size_t i = 0; i < frames.frames.size(); ++i) {
     const int frame = frames.frames[i];
     run.display().frame(frame, i + 1, frames.frames.size());
@@ -61,11 +79,16 @@ int run_post_frames(const Options& options, const PostWork& work) {
     }
     for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
     if (report.cancelled) return SignalGuard::exit_code();
+    vectors.add(report);
     run.statistics().stages_s["post"] += run.seconds() - began;
     run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {}, {}", output, report.window.width(),
                                    report.window.height(), report.longest, counted(report.steps, "step"),
                                    duration_text(run.seconds() - began)));
   }
+  if (vectors.suspects())
+    run.display().warn(options.input +
+                       ": all motion vectors of all frames are zero, although the depths change: nothing is "
+                       "blurred; render the frames again with motion vectors");
   run.finish(options);
   return 0;
 }

@@ -144,7 +144,7 @@ int run_render(const Options& options) {
   Run run(options);
   SceneDescription scene = read_picture_scene(options, run.display());
   const std::string output = output_name(options, scene.frames);
-  if (std::filesystem::path(output).extension() != ".exr" && !is_display_image(output)) {
+  if (lower_extension(output) != ".exr" && !is_display_image(output)) {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr, .png or .jpg");
   }
   if (options.picture.estimate) return print_estimate(scene, options, run);

@@ -7,7 +7,8 @@ set(public_headers
   base/error.h base/schema.h base/stopwatch.h
   image/exr.h
   geom/strands.h geom/curve_bounds.h geom/io/strand_file.h geom/io/strand_reader.h
-  render/fibre/fibre_material.h render/material/material.h
+  procedurals/fixed_strands.h
+  render/fibre/fibre_material.h render/frame/frame_saver.h render/frame/frame_watch.h render/material/material.h
   post/pelage_post.h
   world/world.h)
 set(installed_headers)

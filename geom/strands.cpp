@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-#include "base/check.h"
+#include <fmt/format.h>
+
+#include "base/error.h"
 
 namespace pelage {
 namespace {
@@ -28,19 +30,27 @@ size_t value_count(AttributeClass frequency, size_t strands, size_t points) {
 }  // namespace
 
 Strands::Strands(StrandArrays arrays) : a_(std::move(arrays)) {
-  const size_t strands = strand_count();
-  const size_t points = point_count();
-  PELAGE_CHECK(a_.motion_keys >= 1);
-  PELAGE_CHECK(a_.first_point.empty() || a_.first_point.front() == 0);
-  PELAGE_CHECK(std::is_sorted(a_.first_point.begin(), a_.first_point.end()));
-  PELAGE_CHECK(a_.points.size() == static_cast<size_t>(a_.motion_keys) * points * 4);
-  PELAGE_CHECK(a_.ids.size() == strands);
-  PELAGE_CHECK(a_.roots.empty() || a_.roots.size() == strands);
-  PELAGE_CHECK(a_.root_uv.empty() || a_.root_uv.size() == strands);
+  const size_t strands = strand_count(), points = point_count();
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw Error(ErrorKind::kInput, std::string("inconsistent strands: ") + what);
+  };
+  const auto require_size = [](const char* name, size_t size, size_t expected) {
+    if (size != expected)
+      throw Error(ErrorKind::kInput, fmt::format("inconsistent strands: `{}` has {} entries instead of {}",
+                                                 name, size, expected));
+  };
+  require(a_.motion_keys >= 1, "`motion_keys` is less than 1");
+  require(a_.first_point.empty() || a_.first_point.front() == 0, "`first_point` does not begin with 0");
+  require(std::is_sorted(a_.first_point.begin(), a_.first_point.end()), "`first_point` does not ascend");
+  require_size("points", a_.points.size(), static_cast<size_t>(a_.motion_keys) * points * 4);
+  require_size("ids", a_.ids.size(), strands);
+  if (!a_.roots.empty()) require_size("roots", a_.roots.size(), strands);
+  if (!a_.root_uv.empty()) require_size("root_uv", a_.root_uv.size(), strands);
   for (const StrandAttribute& attribute : a_.attributes) {
-    PELAGE_CHECK(attribute.components >= 1);
-    PELAGE_CHECK(attribute.values.size() == value_count(attribute.frequency, strands, points) *
-                                                static_cast<size_t>(attribute.components));
+    require(attribute.components >= 1, "an attribute has less than one component");
+    require_size(
+        attribute.name.c_str(), attribute.values.size(),
+        value_count(attribute.frequency, strands, points) * static_cast<size_t>(attribute.components));
   }
 }
 

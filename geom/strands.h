@@ -71,9 +71,8 @@ struct StrandArrays {
 class Strands {
  public:
   Strands() = default;
-  /// Takes ownership of the arrays. Checks that their sizes are consistent; a mismatch is a bug of the
-  /// caller. Does not check their contents: geom/io repairs the contents of files before it calls this
-  /// constructor.
+  /// Takes ownership of the arrays. Throws Error (kInput) if their sizes are inconsistent. Does not check
+  /// their contents: geom/io repairs the contents of files before it calls this constructor.
   explicit Strands(StrandArrays arrays);
 
   size_t strand_count() const { return a_.first_point.empty() ? 0 : a_.first_point.size() - 1; }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/display_image.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "base/error.h"
 #include "base/file.h"
 #include "image/image_reader.h"
@@ -11,9 +8,7 @@
 namespace pelage {
 
 bool is_display_image(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_extension(path);
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
@@ -11,6 +10,8 @@
 #include <vector>
 
 #include <png.h>
+
+#include "base/file.h"
 
 namespace pelage {
 namespace {
@@ -88,10 +89,7 @@ class PngFile {
 }  // namespace
 
 std::optional<std::string> read_plain_png(const std::filesystem::path& file, ImageSink& sink) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png") return {};
+  if (lower_extension(file) != ".png") return {};
   PngFile png(file);
   if (!png.read_header()) return {};
   const std::optional<TexelLayout> layout = png.layout();

@@ -16,10 +16,10 @@ struct LodPose {
 /// strand depends only on this camera and the strand's root (law 3), not on the order of rays or the size of
 /// boxes.
 struct LodView {
-  LodPose open, close;          ///< when the shutter opens and closes; equal for a static camera
-  float near_distance = 1e-3f;  ///< scene units; pixels_per_unit() treats nearer points as at this distance
-  float lens_diameter = 0;      ///< scene units; 0 for a pinhole camera
-  float focus_distance = 1;     ///< scene units along `forward`
+  LodPose open, close;           ///< when the shutter opens and closes; equal for a static camera
+  float near_distance = 1e-12f;  ///< scene units; pixels_per_unit() treats nearer points as at this distance
+  float lens_diameter = 0;       ///< scene units; 0 for a pinhole camera
+  float focus_distance = 1;      ///< scene units along `forward`
 };
 
 /// Returns the size in pixels of one scene unit at a point when the shutter opens. The size depends on the

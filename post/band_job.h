@@ -20,6 +20,7 @@ struct PostReport {
   int steps = 1;                      ///< number of times at which the picture was sampled
   int bands = 1;                      ///< number of bands in which the file was processed
   float longest = 0;                  ///< length of the longest motion or parallax, in pixels
+  uint64_t depth_hash = 0;            ///< of motion blur: hash of the depths of all views
   std::vector<std::string> notes;     ///< information for the user, one line each
   std::vector<std::string> warnings;  ///< probable mistakes of the user, one line each
 };

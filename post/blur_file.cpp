@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "post/box_resolve.h"
 #include "post/soft_edges.h"
 #include "post/step_lists.h"
@@ -68,6 +69,7 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
       image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), edges);
   std::vector<Flow> vectors =
       read_layer_vectors(image, *motion, params.file.vectors, "--motion", of_view(view), report);
+  report.depth_hash = hash64(report.depth_hash, content_hash(std::as_bytes(std::span(depth))).low);
   join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
   const ShutterParams& shutter = params.shutter;
   LinkLimits limits;

@@ -13,6 +13,7 @@
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_watch.h"
 #include "view/why_answer.h"
+#include "world/kept_render.h"
 #include "world/world.h"
 
 namespace pelage {
@@ -195,6 +196,7 @@ void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
     status.warnings.clear();
     for (const Problem& warning : edit->scene.warnings)
       status.warnings.push_back(to_string(warning.position) + ": " + warning.message);
+    if (const auto dark = why_dark(edit->scene)) status.warnings.push_back(*dark);
   });
   began_ = true;
   preview_is_over_ = false;

@@ -12,6 +12,7 @@
 #include "render/frame/frame_shading.h"
 #include "render/frame/skin_point.h"
 #include "render/frame/strand_fields.h"
+#include "world/kept_render.h"
 
 namespace pelage {
 namespace {

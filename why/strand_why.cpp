@@ -140,6 +140,9 @@ StrandWhy explain_strand(const SceneDescription& scene, Assets& assets, const Re
                                    : rest_position(seen, 0).value_or(seen.point(seen.first_point(0)));
   why.steps = explain_steps(scene, assets, strand, job);
   why.steps.push_back({"stored", strand_places(seen)});
+  for (StepWhy& step : why.steps) {
+    for (V3f& position : step.after.position) position += frame.origin;
+  }
   why.lod = explain_lod(strand);
   why.outline = outline_of(seen, frame.camera, surface.ray.time);
   return why;

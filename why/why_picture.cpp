@@ -6,6 +6,7 @@
 #include <span>
 
 #include "image/view_transform.h"
+#include "world/kept_render.h"
 
 namespace pelage {
 namespace {

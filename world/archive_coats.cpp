@@ -181,7 +181,10 @@ FurPart archive_fur(const std::string& name, const ArchiveCoat& coat, const RibO
                     size_t material, const RibShutter& shutter) {
   FurPart fur{name,          procedurals_of(coat),   material, coat.coat.rest, request.tint,
               coat.coat.lod, coat.coat.skin->scale()};
-  if (request.to_world == RibTransform()) return fur;
+  if (request.to_world == RibTransform()) {
+    fur.follows = coat.coat.skin;
+    return fur;
+  }
   // Shading asks for the detail at positions in the picture's world, which are not those of the coat's.
   fur.lod.reset();
   fur.scale *= mean_scale(request.to_world.at(shutter.times.x));

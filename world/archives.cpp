@@ -22,15 +22,23 @@
 namespace pelage {
 namespace {
 
-/// The transform of an archive over the shutter.
-RibTransform placement_of(const SceneDescription& scene, const TransformParams& transform, double frame) {
-  const V2f shutter = scene.camera.shutter;
-  if (!moves(transform) || !(shutter.y > shutter.x))
-    return RibTransform(character_matrix(transform, moves(transform) ? frame + shutter.x : frame));
+/// The time between the first and the last motion key of what a file contains. With a closed shutter, keys
+/// are needed for motion vectors alone: up to the next frame.
+V2f motion_span(const SceneDescription& scene) {
+  const V2f& shutter = scene.camera.shutter;
+  return shutter.y > shutter.x ? shutter : V2f(shutter.x, shutter.x + 1);
+}
+
+/// The transform of an archive over its motion keys.
+RibTransform placement_of(const SceneDescription& scene, const TransformParams& transform, double frame,
+                          const V3f& origin) {
+  const V2f shutter = motion_span(scene);
+  if (!moves(transform)) return RibTransform(character_matrix(transform, frame, origin));
   std::vector<std::pair<double, M44f>> samples;
-  for (int key = 0; key < scene.camera.motion_keys; ++key) {
-    const double time = shutter.x + double(shutter.y - shutter.x) * key / (scene.camera.motion_keys - 1);
-    samples.emplace_back(time, character_matrix(transform, frame + time));
+  const int keys = scene.camera.shutter.y > scene.camera.shutter.x ? scene.camera.motion_keys : 2;
+  for (int key = 0; key < keys; ++key) {
+    const double time = shutter.x + double(shutter.y - shutter.x) * key / (keys - 1);
+    samples.emplace_back(time, character_matrix(transform, frame + time, origin));
   }
   return RibTransform(std::move(samples));
 }
@@ -99,7 +107,7 @@ int64_t strand_count(const ArchiveCoat& coat) {
 
 void add_procedurals(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
                      const Archive& archive, const Job& job, World& world) {
-  const RibShutter shutter{scene.camera.shutter};
+  const RibShutter shutter{motion_span(scene)};
   std::set<const PosedCharacterSkin*> charged;
   for (const ArchiveCoat& coat : archive.procedurals->coats) {
     const RibOwnProcedural& request = archive.rib->own_procedurals[coat.procedural];
@@ -138,16 +146,16 @@ CharacterPose pose_of(const RibSkin& skin, const LimitSurface& rest) {
 }  // namespace
 
 void load_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
-                  double frame, const Job& job, Archive& archive) {
-  const RibTransform placement = placement_of(scene, params.transform, frame);
-  const ContentHash key = key_of(params, placement, frame, scene.camera.shutter);
+                  double frame, const Job& job, const V3f& origin, Archive& archive) {
+  const RibTransform placement = placement_of(scene, params.transform, frame, origin);
+  const ContentHash key = key_of(params, placement, frame, motion_span(scene));
   if (archive.rib && archive.key == key) return;
   const auto earlier = archive.procedurals;  // its scenes are used again
   archive = {};
   const std::string what = fmt::format("reading archive '{}'", name);
   RibReadOptions options;
   options.frame = static_cast<int>(std::lround(frame));
-  options.shutter = scene.camera.shutter;
+  options.shutter = motion_span(scene);
   options.placement = placement;
   options.mirror_left_handed = scene.from_rib;
   options.programs = scene.programs;

@@ -17,7 +17,7 @@ namespace pelage {
 struct World;
 struct ArchiveProcedurals;
 
-/// The contents of a RIB file in one frame, in world space.
+/// The contents of a RIB file in one frame, in world space relative to an origin.
 struct Archive {
   ContentHash key;  ///< of everything from which it is made
   std::shared_ptr<const RibScene> rib;
@@ -26,11 +26,12 @@ struct Archive {
   MemoryCharge charge;
 };
 
-/// Makes `archive` the contents of a file at a frame, unless it already is. Throws Error: kInput for mistakes
+/// Makes `archive` the contents of a file at a frame, relative to `origin` (RenderScene::origin), unless it
+/// already is. Throws Error: kInput for mistakes
 /// in the file, kMemory when its strands and skins do not fit `render.memory`, kStopped when the job is
 /// stopped.
 void load_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
-                  double frame, const Job& job, Archive& archive);
+                  double frame, const Job& job, const V3f& origin, Archive& archive);
 
 /// Adds the coats and skins of an archive to a world, as "ARCHIVE.NAME". Throws Error (kInput) if a surface
 /// has no material, or one of the wrong kind.

@@ -17,6 +17,7 @@
 #include "world/asset_files.h"
 #include "world/frame_characters.h"
 #include "world/map_check.h"
+#include "world/scene_origin.h"
 #include "world/scene_schema.h"
 #include "world/skin_memory_check.h"
 
@@ -300,6 +301,8 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   }
   update_grooms(scene, keys, job, assets);
   assets.materials = load_materials(scene, assets.textures, job);
+  if (const auto coarse = coarse_position(scene, assets, scene.frames.frames.front()))
+    job.progress.warn(*coarse);
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "procedurals/fur.h"
 #include "world/archives.h"
 #include "world/frame_characters.h"
+#include "world/scene_origin.h"
 
 namespace pelage {
 
@@ -36,8 +37,7 @@ class Composer {
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
-  void add_all() {
-    const std::vector<FrameCharacter> characters = frame_characters(scene_, assets_);
+  void add_all(const std::vector<FrameCharacter>& characters) {
     for (const FrameCharacter& character : characters) {
       job_.check_stop();
       add(character, scene_.render.lod.enabled);
@@ -48,7 +48,8 @@ class Composer {
  private:
   Camera lod_camera() const {
     const std::optional<CameraParams>& own = scene_.render.lod.camera.own;
-    return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
+    return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height, world_.scene.origin)
+               : world_.scene.camera;
   }
 
   void add(const FrameCharacter& character, bool reduced) {
@@ -63,7 +64,8 @@ class Composer {
   void add_part(const FrameCharacter& character, size_t index, bool reduced, Box3f& box) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
-    CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
+    CharacterPose pose =
+        pose_character(character, index, assets_, scene_.camera, frame_, world_.scene.origin);
     for (const auto& groom : part.grooms.items) {
       if (assets_.grooms.at(groom.name)->needs_closest_point())
         pose.push_out_view = world_.scene.camera.view();
@@ -82,6 +84,7 @@ class Composer {
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
       fur.scale = posed->scale();
       fur.skin = static_cast<uint32_t>(own);
+      fur.follows = posed;
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
@@ -132,33 +135,39 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   return header;
 }
 
-LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
+LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
+                     const V3f& origin) {
   std::vector<std::unique_ptr<Light>> lights;
   for (const auto& [name, position, params] : scene.lights.items) {
-    lights.push_back(make_light(name, params, frame, assets.textures, job.ledger));
+    lights.push_back(make_light(name, params, frame, assets.textures, job.ledger, origin));
   }
   return LightSet(std::move(lights));
 }
 
 }  // namespace
 
-World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
+              CoordinateOrigin from) {
+  const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
+  const V3f origin =
+      from == CoordinateOrigin::kNearCoats ? scene_origin(scene, assets, characters, frame, job) : V3f(0);
   World world{{{},
                {},
                assets.materials,
-               make_lights(scene, assets, frame, job),
-               Camera(scene.camera, frame, scene.image.width, scene.image.height),
+               make_lights(scene, assets, frame, job, origin),
+               Camera(scene.camera, frame, scene.image.width, scene.image.height, origin),
                scene.image,
-               scene.render},
+               scene.render,
+               origin},
               0,
               0,
               0,
               0,
               header_of(scene, frame),
               {}};
-  Composer(scene, assets, frame, job, world).add_all();
+  Composer(scene, assets, frame, job, world).add_all(characters);
   for (const auto& archive : scene.archives.items) {
-    load_archive(scene, archive.name, archive.value, frame, job, assets.archives[archive.name]);
+    load_archive(scene, archive.name, archive.value, frame, job, origin, assets.archives[archive.name]);
     add_archive(scene, archive.name, archive.value, assets.archives.at(archive.name), job, world);
   }
   return world;
@@ -166,7 +175,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
 
 void recompose_sampling(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
                         World& world) {
-  LightSet lights = make_lights(scene, assets, frame, job);
+  LightSet lights = make_lights(scene, assets, frame, job, world.scene.origin);
   std::vector<MaterialParams> materials = load_materials(scene, assets.textures, job);
   world.header = header_of(scene, frame);
   assets.materials = std::move(materials);

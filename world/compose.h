@@ -37,10 +37,17 @@ struct World {
   ContentHash poses = {};  ///< hash of the surfaces of all skins, over the shutter
 };
 
+/// Where the coordinates of a world start: RenderScene::origin.
+enum class CoordinateOrigin {
+  kWorld,      ///< at the origin of the scene file
+  kNearCoats,  ///< near the coats if they are far from it, so that floats resolve their strands
+};
+
 /// Makes the world of one frame: poses skins and coats, and sets up materials, lights and the camera. Does
 /// not grow strands. Throws Error: kInput for missing or damaged poses and images, kMemory when memory does
 /// not suffice, kStopped when the job is stopped.
-World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
+              CoordinateOrigin from = CoordinateOrigin::kNearCoats);
 
 /// Replaces everything in a world that does not concern geometry: lights, materials, sampling and layers of
 /// the picture, and the header. `scene`: a scene that differs from the scene of the world by Redo::kSampling

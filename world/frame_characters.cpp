@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Imath/ImathBoxAlgo.h>
+
 #include "procedurals/fur.h"
 #include "render/scene/render_scene.h"
 
@@ -20,10 +22,11 @@ bool is_prototype(const SceneDescription& scene, const std::string& character) {
   return false;
 }
 
-M44f to_world(const FrameCharacter& character, double time) {
-  const M44f own = character_matrix(character.params->transform, time);
-  if (!character.member) return own;
-  return scale_of(*character.member) * own * placement_of(*character.member);
+M44f to_world(const FrameCharacter& character, double time, const V3f& origin) {
+  if (!character.member) return character_matrix(character.params->transform, time, origin);
+  CrowdMember member = *character.member;
+  member.position -= origin;
+  return scale_of(member) * character_matrix(character.params->transform, time) * placement_of(member);
 }
 
 /// Motion of one part of a character.
@@ -31,10 +34,11 @@ struct Motion {
   const FrameCharacter& character;
   const std::vector<V3f>& rest;
   const PoseSequence* poses;  // null: at rest
+  V3f origin;
 
   bool moves() const { return poses || pelage::moves(character.params->transform); }
   void add_pose(double time, PosedCages& cages) const {
-    const M44f matrix = to_world(character, time);
+    const M44f matrix = to_world(character, time, origin);
     const double shown =
         time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
     std::vector<V3f> cage = poses ? poses->positions(shown) : rest;
@@ -44,21 +48,22 @@ struct Motion {
   }
 };
 
-Motion motion_of(const FrameCharacter& character, size_t part, const Assets& assets) {
+Motion motion_of(const FrameCharacter& character, size_t part, const Assets& assets,
+                 const V3f& origin = V3f(0)) {
   const Assets::Skin& skin = assets.skins.at(character.params->parts[part].skin.name);
   const auto own = assets.part_poses.find({character.prototype, part});
-  if (own != assets.part_poses.end()) return {character, skin.cage.positions, &own->second};
-  return {character, skin.cage.positions, skin.poses ? &*skin.poses : nullptr};
+  if (own != assets.part_poses.end()) return {character, skin.cage.positions, &own->second, origin};
+  return {character, skin.cage.positions, skin.poses ? &*skin.poses : nullptr, origin};
 }
 
 }  // namespace
 
-M44f character_matrix(const TransformParams& transform, double frame) {
+M44f character_matrix(const TransformParams& transform, double frame, const V3f& origin) {
   const float to_radians = std::numbers::pi_v<float> / 180;
   M44f scale, rotation, translation;
   scale.setScale(transform.scale.at(frame));
   rotation.setEulerAngles(transform.rotate.at(frame) * to_radians);
-  translation.setTranslation(transform.translate.at(frame));
+  translation.setTranslation(relative_to(transform.translate, origin).at(frame));
   return scale * rotation * translation;
 }
 
@@ -94,8 +99,9 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
   for (size_t part = 0; part < character.parts.size(); ++part) {
     const Motion motion = motion_of(animal, part, assets);
     const bool shutter = scene.camera.shutter.y > scene.camera.shutter.x;
-    const size_t times =
-        motion.moves() && shutter ? static_cast<size_t>(scene.camera.motion_keys) + 2 : size_t(1);
+    const size_t times = !motion.moves() ? size_t(1)
+                         : shutter       ? static_cast<size_t>(scene.camera.motion_keys) + 4
+                                         : size_t(3);
     bytes += times * (motion.rest.size() * sizeof(V3f) + sizeof(std::vector<V3f>) + sizeof(M44f) + kHeap);
     bytes += sizeof(PosedCharacterSkin) + 4 * kHeap + sizeof(SkinPart) + kName;
     bytes += character.parts[part].grooms.items.size() *
@@ -109,8 +115,21 @@ bool has_coat(const FrameCharacter& character) {
                      [](const PartParams& part) { return !part.grooms.items.empty(); });
 }
 
+Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets& assets, double frame) {
+  const Motion motion = motion_of(character, part, assets);
+  if (character.member || !motion.poses) {
+    const LimitSurface& rest = *assets.skins.at(character.params->parts[part].skin.name).rest;
+    return Imath::transform(rest.control_bounds(), to_world(character, frame, V3f(0)));
+  }
+  PosedCages posed;
+  motion.add_pose(frame, posed);
+  Box3f box;
+  for (const V3f& point : posed.cages.front()) box.extendBy(point);
+  return box;
+}
+
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
-                             const CameraParams& camera, double frame) {
+                             const CameraParams& camera, double frame, const V3f& origin) {
   CharacterPose pose;
   pose.topology = assets.skins.at(character.params->parts[part].skin.name).rest->shared_topology();
   pose.scale = character.params->transform.scale.at(frame);
@@ -119,7 +138,7 @@ CharacterPose pose_character(const FrameCharacter& character, size_t part, const
     pose.scale *= axes.x == axes.y && axes.y == axes.z ? axes.x : std::cbrt(axes.x * axes.y * axes.z);
     pose.length = character.member->length;
   }
-  const Motion motion = motion_of(character, part, assets);
+  const Motion motion = motion_of(character, part, assets, origin);
   const double open = frame + camera.shutter.x, length = double(camera.shutter.y) - camera.shutter.x;
   if (!motion.moves()) {
     motion.add_pose(frame, pose.shutter);
@@ -129,6 +148,9 @@ CharacterPose pose_character(const FrameCharacter& character, size_t part, const
     for (int key = 0; key < camera.motion_keys; ++key)
       motion.add_pose(open + length * key / (camera.motion_keys - 1), pose.shutter);
     for (double end : {frame - 0.5, frame + 0.5}) motion.add_pose(end, pose.frame_ends);
+  }
+  if (motion.moves()) {
+    for (double one : {frame, frame + 1}) motion.add_pose(one, pose.frames);
   }
   return pose;
 }

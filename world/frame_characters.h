@@ -33,15 +33,21 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
 /// Returns whether the character has any groom.
 bool has_coat(const FrameCharacter& character);
 
+/// Returns the box of the cage of one part of a character, in world space. For an animal of a crowd, the box
+/// of the cage at rest, moved to its place.
+Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets& assets, double frame);
+
 /// Returns the posed cages of one part of a character. If the part is animated and the shutter is open for
 /// some time, these are one cage per motion key of the camera, and two cages at frame - 1/2 and frame + 1/2.
-/// Otherwise there is one cage.
+/// Otherwise there is one cage. If the part is animated, there are also two cages at the frame and at the
+/// next one. The cages are relative to `origin` (RenderScene::origin).
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
-                             const CameraParams& camera, double frame);
+                             const CameraParams& camera, double frame, const V3f& origin = V3f(0));
 
 /// Returns the matrix M from the object space of a character to world space at a frame. Points are row
 /// vectors: p * M. The matrix scales first, then rotates about x, y and z in this order, then translates.
-M44f character_matrix(const TransformParams& transform, double frame);
+/// The result is relative to `origin`.
+M44f character_matrix(const TransformParams& transform, double frame, const V3f& origin = V3f(0));
 
 /// Returns whether the transform is animated, because one of its values has at least two keys.
 bool moves(const TransformParams& transform);

@@ -243,6 +243,21 @@ std::vector<std::filesystem::path> files_of(const Value& document, const std::fi
 
 }  // namespace
 
+std::optional<std::string> why_dark(const SceneDescription& scene) {
+  const auto shines = [](const auto& light) {
+    const auto& keys = light.intensity.keys();
+    return max_component(light.radiance) > 0 &&
+           std::any_of(keys.begin(), keys.end(), [](const auto& key) { return key.second > 0; });
+  };
+  for (const auto& light : scene.lights.items) {
+    if (std::visit(shines, light.value)) return {};
+  }
+  if (!scene.lights.items.empty())
+    return "every light has the radiance or intensity 0: pictures will be black";
+  return scene.from_rib ? "there is no light: pictures will be black; add a LightSource that Pelage supports"
+                        : "there is no light: pictures will be black; add one to `lights`";
+}
+
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides,
                             const RibUse& use) {
   Problems problems;

@@ -10,6 +10,7 @@
 #include "image/view_transform.h"
 #include "render/frame/frame_layers.h"
 #include "render/render_frame.h"
+#include "world/kept_render.h"
 
 namespace pelage {
 

@@ -30,15 +30,8 @@
 
 namespace pelage {
 
-class FrameGeometry;
-class KeptFur;
-
 /// Renders a composed frame with the integrator that the scene selects. See render_frame().
 FrameResult render(const World& world, const Job& job, const FrameOptions& options = {});
-
-/// Does the same with geometry that is kept between calls. See render_frame() and recompose_sampling().
-FrameResult render(const World& world, const Job& job, const FrameOptions& options,
-                   std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept = nullptr);
 
 /// Returns the header of a rendered frame. `seconds`: duration of the render.
 FrameHeader finished_header(const World& world, const FrameResult& result, double seconds);

@@ -2,7 +2,6 @@
 #include "geom/io/strand_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
@@ -28,9 +27,7 @@ const Format kFormats[] = {
     {".tfx", open_tfx, write_tfx, {"color", "transparency", "opacity", "uv", kMovable}, false, true}};
 
 const Format* find_format(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_extension(path);
   for (const Format& format : kFormats) {
     if (ending == format.ending) return &format;
   }

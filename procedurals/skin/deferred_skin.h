@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "base/vector.h"
+#include "geom/cage_point.h"
 #include "geom/skin_pieces.h"
 #include "geom/view.h"
 #include "procedurals/bounds/procedural.h"
@@ -34,6 +35,12 @@ class DeferredSkin {
   /// Returns the max temporary memory of tessellate() in bytes, without its result and without memory that is
   /// already charged to the ledger.
   virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
+  /// Returns how the skin moves from the frame to the next one, near a point of one of its faces. `place`:
+  /// null for strands that follow the character but grow on no skin. Empty if nothing moves, or if only the
+  /// motion keys are known.
+  virtual std::optional<SurfaceStep> step(const RootAddress* /*place*/) const { return {}; }
+  /// Returns the approximate unit normal at a point of a face when the shutter opens. Empty when unknown.
+  virtual std::optional<V3f> normal(const RootAddress& /*place*/) const { return {}; }
   /// Hash of everything on which pieces and triangles depend, except for the view. Empty when unknown.
   virtual std::optional<ContentHash> content() const { return {}; }
   /// Number of faces. All indices in SkinMesh::faces are smaller.

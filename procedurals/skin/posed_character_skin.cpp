@@ -52,6 +52,7 @@ PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseC
   PELAGE_CHECK(pose_.shutter.transforms.size() == pose_.shutter.cages.size());
   PELAGE_CHECK(pose_.frame_ends.cages.size() == pose_.frame_ends.transforms.size());
   PELAGE_CHECK(pose_.frame_ends.cages.empty() || pose_.frame_ends.cages.size() == 2);
+  PELAGE_CHECK(pose_.frames.cages.empty() || pose_.frames.cages.size() == 2);
   // The size of the trees is known only after making them.
   if (pose_.push_out_view) poses_->reserve(make(BoundSpan::kFrame)->bytes());
 }
@@ -173,8 +174,24 @@ size_t PosedCharacterSkin::temporary_bytes(const SkinPiece& piece) const {
   return sizeof(SkinPose) + pose_.shutter.cages.size() * (held + sizeof(M44f)) + making + lattice;
 }
 
+std::optional<SurfaceStep> PosedCharacterSkin::step(const RootAddress* place) const {
+  const PosedCages& frames = pose_.frames;
+  if (frames.cages.empty()) return {};
+  const auto at = [&](size_t i) -> SurfacePoint {
+    if (place) return cage_point(*pose_.topology, frames.cages[i], place->face, place->u, place->v);
+    const M44f& m = frames.transforms[i];
+    return {V3f(m[3][0], m[3][1], m[3][2]), V3f(m[0][0], m[0][1], m[0][2]), V3f(m[1][0], m[1][1], m[1][2])};
+  };
+  return SurfaceStep{at(0), at(1)};
+}
+
+std::optional<V3f> PosedCharacterSkin::normal(const RootAddress& place) const {
+  const std::vector<V3f>& cage = pose_.shutter.cages.front();
+  return LimitSurface::frame_of(cage_point(*pose_.topology, cage, place.face, place.u, place.v)).normal;
+}
+
 size_t PosedCharacterSkin::bytes() const {
-  return sizeof(*this) + cage_bytes(pose_.shutter) + cage_bytes(pose_.frame_ends);
+  return sizeof(*this) + cage_bytes(pose_.shutter) + cage_bytes(pose_.frame_ends) + cage_bytes(pose_.frames);
 }
 
 }  // namespace pelage

@@ -30,6 +30,8 @@ struct CharacterPose {
   /// Cages at the two ends of the frame interval, frame - 1/2 and frame + 1/2; empty if `shutter` has one
   /// time.
   PosedCages frame_ends;
+  /// Cages at the frame and at the next one, for motion vectors; empty if nothing moves.
+  PosedCages frames;
   /// Scale of the character, by which strands are scaled about their roots. For a non-uniform scale, this is
   /// the cube root of the determinant. The directions of strands follow the posed cage.
   float scale = 1;
@@ -73,6 +75,8 @@ class PosedCharacterSkin final : public DeferredSkin {
   size_t temporary_bytes(const SkinPiece& piece) const override;
   std::optional<ContentHash> content() const override { return hash_; }
   uint32_t face_count() const override { return pose_.topology->face_count(); }
+  std::optional<SurfaceStep> step(const RootAddress* place) const override;
+  std::optional<V3f> normal(const RootAddress& place) const override;
 
   /// Hash of everything that affects strands grown on this skin, except for length(): topology, control
   /// points at all times, transforms, scale, and push_out_view. Equal poses have equal hashes.

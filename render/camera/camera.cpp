@@ -11,10 +11,10 @@
 
 namespace pelage {
 
-Camera::Pose Camera::make_pose(const CameraParams& params, double frame) {
+Camera::Pose Camera::make_pose(const CameraParams& params, double frame, const V3f& origin) {
   Pose pose;
-  pose.position = params.position.at(frame);
-  const V3f view = params.look_at.at(frame) - pose.position;
+  pose.position = relative_to(params.position, origin).at(frame);
+  const V3f view = relative_to(params.look_at, origin).at(frame) - pose.position;
   const V3f right = view.cross(params.up.at(frame));
   if (view.length() == 0) {
     throw Error(ErrorKind::kInput,
@@ -42,9 +42,10 @@ Camera::Pose Camera::blend(const Pose& a, const Pose& b, float t) {
   return pose;
 }
 
-Camera::Camera(const CameraParams& params, double frame, int width, int height)
-    : frame_(make_pose(params, frame)),
-      next_frame_(make_pose(params, frame + 1)),
+Camera::Camera(const CameraParams& params, double frame, int width, int height, const V3f& origin)
+    : frame_(make_pose(params, frame, origin)),
+      next_frame_(make_pose(params, frame + 1, origin)),
+      origin_(origin),
       shutter_(params.shutter),
       width_(width),
       height_(height),
@@ -55,7 +56,7 @@ Camera::Camera(const CameraParams& params, double frame, int width, int height)
   const int count = still || shutter_frames() <= 0 ? 1 : std::max(params.motion_keys, 2);
   for (int k = 0; k < count; ++k) {
     const double at = count == 1 ? shutter_.x : shutter_.x + shutter_frames() * k / (count - 1.0);
-    keys_.push_back(make_pose(params, frame + at));
+    keys_.push_back(make_pose(params, frame + at, origin));
   }
   if (params.lens && !parallel_) {
     lens_radius_ = params.lens->focal_length / (2 * params.lens->f_stop);
@@ -112,7 +113,7 @@ float Camera::projected_length(std::span<const float> points, float time) const 
 
 bool Camera::may_see(const Box3f& box) const {
   if (box.isEmpty()) return false;
-  const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
+  const float aspect = this->aspect();
   // Number of corners outside of each half space, over all keys: behind, left, right, below, above. A box
   // that is beyond a border at every key is beyond it between the keys too. Seen from a point a of the lens,
   // a border is shifted sideways by a (1 - depth / focus). The distance by which a point is beyond a border
@@ -170,7 +171,8 @@ float Camera::frame_time() const { return shutter_frames() > 0 ? -shutter_.x / s
 
 M44f Camera::world_to_camera() const {
   const Pose& p = frame_;
-  const auto shift = [&](const V3f& axis) { return -p.position.dot(axis); };
+  const V3d position = V3d(p.position) + V3d(origin_);
+  const auto shift = [&](const V3f& axis) { return static_cast<float>(-position.dot(V3d(axis))); };
   return {p.right.x,      p.up.x,      p.forward.x,      0,  //
           p.right.y,      p.up.y,      p.forward.y,      0,  //
           p.right.z,      p.up.z,      p.forward.z,      0,  //
@@ -178,7 +180,7 @@ M44f Camera::world_to_camera() const {
 }
 
 M44f Camera::world_to_ndc() const {
-  const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
+  const float aspect = this->aspect();
   const float y = 0.5f / frame_.half_height;
   const float x = y / aspect;
   if (parallel_)  // (x, y, z, 1) -> (x' + 1/2, 1/2 - y', z, 1)

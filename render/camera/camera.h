@@ -43,12 +43,15 @@ struct CameraRay {
 /// of view are interpolated linearly, like geometry; the axes are then orthonormalised. The lines of sight of
 /// an orthographic camera are parallel. They start in the plane of the camera; a lens has no effect.
 ///
+/// World points are relative to the origin of the constructor; the matrices of the header are not.
+///
 /// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
  public:
   /// Throws Error (kInput) when, at any motion key, at the time of the frame or at the next frame, the camera
   /// is at its target or looks along its up vector.
-  Camera(const CameraParams& params, double frame, int width, int height);
+  /// `origin`: RenderScene::origin.
+  Camera(const CameraParams& params, double frame, int width, int height, const V3f& origin = V3f(0));
 
   /// Returns the ray through raster position (x, y) and lens position `lens` in [0, 1)^2 at shutter time
   /// `time` in [0, 1].
@@ -77,6 +80,7 @@ class Camera {
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
+  float shutter_open() const { return shutter_.x; }                 ///< in frames relative to the frame
   float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< duration of the shutter, in frames
   /// Shutter time (0 open, 1 close) of the frame itself; outside [0, 1] when the time of the frame is not
   /// within the shutter. 0 if the shutter has no duration.
@@ -87,6 +91,8 @@ class Camera {
   /// upper left corner and (1, 1) in the lower right corner. The matrices apply to row vectors: p * M.
   M44f world_to_camera() const;
   M44f world_to_ndc() const;
+  /// Value of the EXR attribute screenWindowWidth: width of what the picture shows at distance 1.
+  float screen_window_width() const { return 2 * frame_.half_height * aspect(); }
 
  private:
   struct Pose {
@@ -94,7 +100,8 @@ class Camera {
     /// Half the height of the picture at distance 1, or at any distance if the camera is orthographic.
     float half_height = 1;
   };
-  static Pose make_pose(const CameraParams& params, double frame);
+  float aspect() const { return static_cast<float>(width_) / static_cast<float>(height_); }
+  static Pose make_pose(const CameraParams& params, double frame, const V3f& origin);
   static Pose blend(const Pose& a, const Pose& b, float t);
   Pose pose_at(float time) const;
   std::optional<V3f> project(const Pose& pose, const V3f& world) const;
@@ -105,6 +112,7 @@ class Camera {
 
   std::vector<Pose> keys_;  // over the shutter; one key for a static camera
   Pose frame_, next_frame_;
+  V3f origin_;
   V2f shutter_;
   int width_, height_;
   bool parallel_ = false;  // orthographic

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "base/check.h"
+#include "render/film/positive_layers.h"
 
 namespace pelage {
 namespace {
@@ -165,6 +166,7 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box,
   for (size_t i = 0; layers_.events && i < layers_.lights(); ++i) {
     for (int g = 0; g < layers_.groups; ++g) add_indirect(i, g);
   }
+  if (!wanted) make_positive(layers_, channels);
   add_data("Z", [](const VisibleSurface& s) { return s.depth; });
   for (int c = 0; c < 3; ++c) {
     const std::string axis(1, "XYZ"[c]);
@@ -177,6 +179,7 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box,
     add_data("root." + axis, [c](const VisibleSurface& s) { return s.root_uv[c]; });
   }
   add_counts("id", [&](size_t p) { return surfaces_[p].surface.id; });
+  add_data("id.X", [](const VisibleSurface& s) { return id_float(s.id); });
   if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {
     add_channel("noise", ChannelType::kFloat,

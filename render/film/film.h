@@ -73,11 +73,12 @@ class Film {
   std::vector<std::span<std::byte>> state();
 
   /// Returns all channels of rows y0 .. y1-1. As half: R G B A and the light layers. As float: Z, N, tangent,
-  /// forward and root. As uint: id. With layers().noise, there are two more channels: `samples` as uint, and
-  /// `noise`, the standard error of the luminance, as float. With layers().lod, there is `lod` as float.
+  /// forward, root and id.X (id_float()). As uint: id. With layers().noise, there are two more channels:
+  /// `samples` as uint, and `noise`, the standard error of the luminance, as float. With layers().lod, there
+  /// is `lod` as float.
   std::vector<ExrChannel> exr_rows(int y0, int y1) const { return exr_pixels({0, y0, width_, y1}); }
-  /// Returns all channels of the pixels of a box, row by row, or only those whose name `wanted` accepts. The
-  /// box may be empty.
+  /// Returns all channels of the pixels of a box, row by row, after make_positive(). With `wanted`, returns
+  /// only those whose name it accepts, as they are. The box may be empty.
   std::vector<ExrChannel> exr_pixels(const PixelBox& box,
                                      const std::function<bool(const std::string& name)>& wanted = {}) const;
 

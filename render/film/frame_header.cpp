@@ -7,6 +7,7 @@ ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
   ExrAttributes attributes;
   attributes["worldToCamera"] = camera.world_to_camera();
   attributes["worldToNDC"] = camera.world_to_ndc();
+  attributes["screenWindowWidth"] = camera.screen_window_width();
   attributes["framesPerSecond"] = static_cast<float>(header.frames_per_second);
   attributes["expTime"] =
       static_cast<float>(double{header.shutter.y - header.shutter.x} / header.frames_per_second);

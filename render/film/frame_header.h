@@ -30,8 +30,9 @@ struct FrameHeader {
   std::string scene_hash;       ///< hash of everything that determines the picture
 };
 
-/// Returns the EXR attributes of a frame. Standard attributes are worldToCamera, worldToNDC, framesPerSecond
-/// and expTime (exposure time in seconds). The names of all others start with "pelage:".
+/// Returns the EXR attributes of a frame. Standard attributes are worldToCamera, worldToNDC,
+/// screenWindowWidth, framesPerSecond and expTime (exposure time in seconds). The names of all others start
+/// with "pelage:".
 ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera);
 
 }  // namespace pelage

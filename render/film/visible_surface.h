@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -21,6 +22,15 @@ struct VisibleSurface {
   uint32_t id = kNoStrand;  ///< lower 32 bits of the strand's id
   float left_out = 0;       ///< fraction of the strands that level of detail omitted here
 };
+
+/// Returns an id as a float for programs that do not read integer channels: its bits, by the rule of the
+/// Cryptomatte specification 1.2. Where they would not be a normal float, the lowest bit of the exponent is
+/// flipped. 0 for kNoStrand.
+inline float id_float(uint32_t id) {
+  if (id == kNoStrand) return 0;
+  const uint32_t exponent = id >> 23 & 255;
+  return std::bit_cast<float>(exponent == 0 || exponent == 255 ? id ^ 1u << 23 : id);
+}
 
 /// The surface that provides a pixel's data that cannot be averaged (depth, normal, id ...). It is the
 /// nearest surface that any sample inside the pixel sees. If no sample is inside the pixel, it is the nearest

@@ -48,6 +48,16 @@ float entry_place(const FibrePoint& at, float h) {
   return std::clamp(std::sqrt(std::max(0.0f, 1 - h * h)) * slant, -kFarthestEntry, kFarthestEntry);
 }
 
+// Distance from the root, in radii, from which on the skin does not cut into a strand, unless it lies flatter
+// than two degrees.
+constexpr float kNearRoot = 32;
+
+/// A point of a strand at a shutter time, on the straight line between its positions at open and close.
+V3f position_at(const Strands& strand, size_t point, float time) {
+  const V3f open = strand.point(point);
+  return open + time * (strand.point(point, strand.motion_keys() - 1) - open);
+}
+
 // Height above the skin at which light starts that leaves it beside the hit, relative to the distance: facets
 // protrude from the surface that they approximate.
 constexpr float kSkinRise = 0.08f;
@@ -219,10 +229,21 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
           GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
 }
 
+/// Tells a point near the root of its strand where the skin is.
+void FrameShading::set_skin(const Hit& hit, const Strands& strand, float time, ScatterPoint& point) const {
+  const std::shared_ptr<const DeferredSkin>& skin = scene_.fur[hit.part].follows;
+  if (!skin || !strand.has_roots()) return;
+  const V3f root = position_at(strand, 0, time);
+  const float near = kNearRoot * point.exit().radius;
+  if ((point.start(V3f(0)) - root).length2() > near * near) return;
+  if (const std::optional<V3f> normal = skin->normal(strand.root(0))) point.set_skin(root, *normal);
+}
+
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit,
                                          const HitGeometry& hit_geometry) const {
   ScatterPoint point = hit.kind == HitKind::kStrand ? fibre_point(ray, hit, hit_geometry.strand)
                                                     : skin_point(ray, hit, hit_geometry.triangle);
+  if (hit.kind == HitKind::kStrand) set_skin(hit, hit_geometry.strand, ray.time, point);
   if (balls_) point.set_shadow(balls_->below(hit, hit_geometry, ray.time));
   return point;
 }
@@ -238,13 +259,21 @@ Rgb FrameShading::color(const Hit& hit, const HitGeometry& hit_geometry) const {
   return tinted(skin_color(part, *skins_[part.material], hit, hit_geometry.triangle), part.tint);
 }
 
-/// Motion in pixels from the frame to the next one for a point seen at `time` of the shutter. The point
-/// continues its mean motion over the shutter; the camera follows its keys.
-V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const {
+/// Motion in pixels from the frame to the next one for a point seen at `time` of the shutter.
+/// `shutter_motion`: from its first to its last motion key. `next(now)`: where the point will be at the next
+/// frame; empty if only the motion keys are known, whose mean motion it then continues. The camera follows
+/// its keys.
+template <class Next>
+V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time,
+                                  const Next& next) const {
   const Camera& camera = scene_.camera;
-  const float frames = camera.shutter_frames();
-  const V3f per_frame = frames > 0 ? shutter_motion / frames : V3f(0);
-  const V3f now = position + shutter_motion * (camera.frame_time() - time);
+  const bool open = camera.shutter_frames() > 0;
+  V3f now = position;
+  if (open) now += shutter_motion * (camera.frame_time() - time);
+  // If the shutter is closed, the motion keys span one frame.
+  const std::optional<V3f> there = next(now);
+  const V3f per_frame = there ? *there - now : shutter_motion / (open ? camera.shutter_frames() : 1.0f);
+  if (!open) now -= camera.shutter_open() * per_frame;
   const auto from = camera.project_at_frame(now, 0);
   const auto to = camera.project_at_frame(now + per_frame, 1);
   if (!from || !to) return V2f(0);
@@ -265,12 +294,13 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit,
     const SkinPart& part = scene_.skins[hit.part];
     const SkinPoint point = pelage::skin_point(hit_geometry.triangle, ray, hit);
     surface.normal = point.normal;
-    if (part.rest) {
-      const V2f place = skin_parameters(hit_geometry.triangle, hit);
-      surface.root_uv =
-          part.rest->topology().texture_coordinates(hit_geometry.triangle.faces[0], place.x, place.y);
-    }
-    surface.forward = motion_in_image(position, point.shutter_motion, ray.time);
+    const V2f place = skin_parameters(hit_geometry.triangle, hit);
+    const RootAddress at{hit_geometry.triangle.faces[0], place.x, place.y};
+    if (part.rest) surface.root_uv = part.rest->topology().texture_coordinates(at.face, at.u, at.v);
+    const std::optional<SurfaceStep> step = part.skin->step(&at);
+    surface.forward = motion_in_image(position, point.shutter_motion, ray.time, [&](const V3f& now) {
+      return step ? std::optional(step->moved(now)) : std::nullopt;
+    });
     return surface;
   }
   const Strands& strand = hit_geometry.strand;
@@ -286,11 +316,16 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit,
     surface.normal = -ray.direction;
   }
   V3f motion(0);
+  const V3f root = position_at(strand, 0, scene_.camera.frame_time());
   if (strand.motion_keys() > 1) {
     motion = strand_point(strand, 0, hit.segment, hit.u, 1).position -
              strand_point(strand, 0, hit.segment, hit.u, 0).position;
   }
-  surface.forward = motion_in_image(position, motion, ray.time);
+  const std::shared_ptr<const DeferredSkin>& follows = scene_.fur[hit.part].follows;
+  const auto step = follows ? follows->step(strand.has_roots() ? &strand.root(0) : nullptr) : std::nullopt;
+  surface.forward = motion_in_image(position, motion, ray.time, [&](const V3f& now) {
+    return step ? std::optional(step->moved(now, root)) : std::nullopt;
+  });
   surface.root_uv = strand.root_uv(0);
   surface.id = static_cast<uint32_t>(hit.strand_id);
   surface.left_out = 1 - kept_share(hit, strand);

@@ -49,10 +49,12 @@ class FrameShading {
   /// detail.
   float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
+  void set_skin(const Hit& hit, const Strands& strand, float time, ScatterPoint& point) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;
   Rgb fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const;
   Rgb skin_color(const SkinPart& part, const Skin& skin, const Hit& hit, const SkinMesh& triangle) const;
-  V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
+  template <class Next>
+  V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time, const Next& next) const;
 
   const FrameScene scene_;
   const SkinShadows* const balls_;

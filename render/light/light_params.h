@@ -48,8 +48,9 @@ struct EnvironmentLightParams {
 };
 using LightParams = std::variant<RectangleLightParams, SphereLightParams, EnvironmentLightParams>;
 
-/// Makes a light with its parameters at `frame`. Throws Error (kInput) for missing images.
+/// Makes a light with its parameters at `frame`. `origin`: RenderScene::origin. Throws Error (kInput) for
+/// missing images.
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
-                                  TextureLibrary& textures, MemoryLedger& ledger);
+                                  TextureLibrary& textures, MemoryLedger& ledger, const V3f& origin = V3f(0));
 
 }  // namespace pelage

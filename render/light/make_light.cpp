@@ -17,11 +17,12 @@ struct LightMaker {
   double frame;
   TextureLibrary& textures;
   MemoryLedger& ledger;
+  const V3f& origin;
 
   std::unique_ptr<Light> operator()(const RectangleLightParams& p) const {
     Rectangle shape;
-    shape.center = p.position.at(frame);
-    const V3f forward = p.look_at.at(frame) - shape.center;
+    shape.center = relative_to(p.position, origin).at(frame);
+    const V3f forward = relative_to(p.look_at, origin).at(frame) - shape.center;
     if (!(forward.length() > 0)) {
       throw Error(ErrorKind::kInput,
                   fmt::format("lights.{}: position and look_at are the same point at frame {}", name, frame));
@@ -41,7 +42,7 @@ struct LightMaker {
   }
 
   std::unique_ptr<Light> operator()(const SphereLightParams& p) const {
-    return std::make_unique<SphereLight>(name, p.position.at(frame), p.radius,
+    return std::make_unique<SphereLight>(name, relative_to(p.position, origin).at(frame), p.radius,
                                          p.radiance * p.intensity.at(frame), p.visible);
   }
 
@@ -68,8 +69,8 @@ struct LightMaker {
 }  // namespace
 
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
-                                  TextureLibrary& textures, MemoryLedger& ledger) {
-  return std::visit(LightMaker{name, frame, textures, ledger}, params);
+                                  TextureLibrary& textures, MemoryLedger& ledger, const V3f& origin) {
+  return std::visit(LightMaker{name, frame, textures, ledger, origin}, params);
 }
 
 }  // namespace pelage

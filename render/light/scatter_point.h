@@ -64,6 +64,11 @@ class ScatterPoint {
 
   /// Stores the ball inside the skin below this point.
   void set_shadow(const SkinShadow& shadow) { shadow_ = shadow; }
+  /// Sets the plane of the skin at the root of a fibre, for points near the root: start() is not below it.
+  void set_skin(const V3f& root, const V3f& normal) {
+    skin_normal_ = normal;
+    skin_height_ = normal.dot(root - position_);
+  }
   /// Returns whether the skin blocks a ray from start(wi) for certain (SkinShadow::blocks()).
   bool is_shadowed(const V3f& wi, float far) const {
     return shadow_.ball.radius > 0 && shadow_.blocks(start(wi), wi, far);
@@ -73,7 +78,7 @@ class ScatterPoint {
   /// (see ExitCircle), slightly outside the surface so that the fibre does not shadow itself. Light that
   /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike the circle of exit(), this
   /// circle is centred at the hit's own position along the fibre, so that a bent fibre does not cover the
-  /// origin.
+  /// origin. Where the circle is below the skin, the origin is on the axis, so that the skin blocks the ray.
   V3f start(const V3f& wi) const {
     const float radius = exit_.radius;
     if (radius == 0) return surface_;
@@ -83,7 +88,9 @@ class ScatterPoint {
     const V3f from_axis = exit_.outside(side / std::sqrt(length2));
     // Far from the origin, a few units in the last place exceed a thousandth of a thin fibre.
     const float largest = std::max({std::abs(position_.x), std::abs(position_.y), std::abs(position_.z)});
-    return position_ + (kJustOutside * radius + 0x1p-21f * largest) * from_axis;
+    const V3f outward = (kJustOutside * radius + 0x1p-21f * largest) * from_axis;
+    if (skin_height_ <= 0 && skin_normal_.dot(outward) < skin_height_) return position_;
+    return position_ + outward;
   }
 
  private:
@@ -106,6 +113,8 @@ class ScatterPoint {
   V3f surface_;
   ExitCircle exit_;
   bool can_hit_own_strand_ = false;
+  V3f skin_normal_{0};     // zero: far from the root
+  float skin_height_ = 1;  // of the skin above the axis, along the normal
   SkinShadow shadow_;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };

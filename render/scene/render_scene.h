@@ -30,6 +30,8 @@ struct FurPart {
   std::optional<Simplification> lod = {};  ///< reduction of detail; empty: not reduced
   float scale = 1;                         ///< size of the posed skin relative to `rest`
   std::optional<uint32_t> skin = {};       ///< index in RenderScene::skins of the skin below the strands
+  /// The skin whose motion from frame to frame the strands follow; null: only their motion keys are known.
+  std::shared_ptr<const DeferredSkin> follows = {};
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.
@@ -43,7 +45,7 @@ struct SkinPart {
   std::optional<Simplification> lod = {};  ///< of the densest coat on the skin; empty: not reduced
 };
 
-/// Everything that a renderer needs for one frame. Positions are in world space.
+/// Everything that a renderer needs for one frame. Positions are in world space, relative to `origin`.
 struct RenderScene {
   std::vector<FurPart> fur;
   std::vector<SkinPart> skins;
@@ -52,6 +54,9 @@ struct RenderScene {
   Camera camera;
   ImageParams image;
   RenderParams render;
+  /// World position of the point (0, 0, 0). Near the coats if these are so far from the world's origin that
+  /// floats would not resolve their strands; otherwise 0.
+  V3f origin{0};
 };
 
 }  // namespace pelage

@@ -7,6 +7,7 @@
 
 #include "base/nearest_name.h"
 #include "geom/curve_bounds.h"
+#include "procedurals/fixed_strands.h"
 #include "rib/scene/rib_interpreter.h"
 
 namespace pelage {
@@ -103,7 +104,7 @@ void RibInterpreter::defer_archive(const std::filesystem::path& path, const RibS
   take_ = [&](size_t coat, Strands batch) {
     RibCoat& own = scene_.coats[coat];
     if (own.scale.width == 0) own.scale = scale_of(batch);
-    own.deferred.push_back({archive, number++, rib_counts(batch), exact_bounds(batch)});
+    own.deferred.push_back({archive, number++, counts_of(batch), exact_bounds(batch)});
   };
   const RibAttributes saved = now_;
   const size_t largest = largest_request_;

@@ -1,34 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The strands of RIB files as procedurals.
-#include <algorithm>
 #include <limits>
 
-#include "geom/curve_bounds.h"
 #include "geom/strand_merge.h"
 #include "procedurals/bounds/segment_parts.h"
+#include "procedurals/fixed_strands.h"
 #include "rib/scene/rib_interpreter.h"
 
 namespace pelage {
 namespace {
-
-/// A batch in memory, which is shared by all frames and copied while it is a chunk.
-class RibBatch final : public Procedural {
- public:
-  RibBatch(std::shared_ptr<const Strands> strands, const StrandScale& scale)
-      : strands_(std::move(strands)), scale_(scale) {}
-  Box3f bound(BoundSpan) const override { return pelage::exact_bounds(*strands_); }
-  Strands generate() const override { return *strands_; }
-  StrandCounts counts() const override { return rib_counts(*strands_); }
-  StrandScale scale() const override { return scale_; }
-  ChunkBounds exact_bounds(BoundSpan, int keys) const override {
-    return SegmentParts(*strands_).exact_bounds(keys);
-  }
-  size_t bytes() const override { return sizeof(*this); }
-
- private:
-  std::shared_ptr<const Strands> strands_;
-  StrandScale scale_;
-};
 
 /// A batch of an archive, which is read again for each use.
 class RibArchiveBatch final : public Procedural {
@@ -67,7 +47,8 @@ class RibCoatProcedural final : public Procedural {
   }
   std::vector<std::unique_ptr<Procedural>> split() const override {
     std::vector<std::unique_ptr<Procedural>> leaves;
-    for (const auto& batch : coat_.batches) leaves.push_back(std::make_unique<RibBatch>(batch, coat_.scale));
+    for (const auto& batch : coat_.batches)
+      leaves.push_back(std::make_unique<FixedStrands>(batch, coat_.scale));
     for (const auto& batch : coat_.deferred)
       leaves.push_back(std::make_unique<RibArchiveBatch>(batch, coat_.scale));
     return leaves;
@@ -99,19 +80,6 @@ class RibCoatProcedural final : public Procedural {
 
 }  // namespace
 
-StrandCounts rib_counts(const Strands& strands) {
-  StrandCounts counts;
-  counts.strands = strands.strand_count();
-  counts.points = strands.point_count();
-  counts.motion_keys = static_cast<size_t>(strands.motion_keys());
-  for (size_t i = 0; i < counts.strands; ++i) {
-    counts.segments += segment_count(strands.basis(), strands.strand_points(i));
-    counts.longest = std::max<size_t>(counts.longest, strands.strand_points(i));
-  }
-  for (const StrandAttribute& a : strands.attributes()) counts.attribute_floats += a.values.size();
-  return counts;
-}
-
 Strands RibDeferredArchive::read(size_t batch, const StrandCounts& expected) const {
   RibReadOptions options;
   options.max_request_bytes =
@@ -126,7 +94,7 @@ Strands RibDeferredArchive::read(size_t batch, const StrandCounts& expected) con
   });
   interpreter.read_file(path, nullptr);
   if (!found) interpreter.finish();
-  const StrandCounts counts = found ? rib_counts(*found) : StrandCounts();
+  const StrandCounts counts = found ? counts_of(*found) : StrandCounts();
   if (!found || counts.points != expected.points || counts.strands != expected.strands ||
       counts.segments != expected.segments || counts.motion_keys != expected.motion_keys ||
       counts.attribute_floats != expected.attribute_floats)

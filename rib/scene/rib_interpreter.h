@@ -66,9 +66,6 @@ struct RibDeferredArchive {
 
 struct RibCurveSet;
 
-/// Returns the sizes of a batch.
-StrandCounts rib_counts(const Strands& strands);
-
 /// Executes the requests of RIB files. One instance reads one frame; all requests change its state or add to
 /// the scene.
 class RibInterpreter {

@@ -56,6 +56,34 @@ TEST_P(WorkersOf, GiveAWorkerNumberToOneThreadAtATime) {
   EXPECT_EQ(clashes, 0);
 }
 
+// Two jobs that share a pool: each loop has every index once, and no worker but its own.
+TEST_P(WorkersOf, ServeTwoThreadsOneAfterTheOther) {
+  const Workers workers(GetParam());
+  std::atomic<int> wrong = 0;
+  const auto loops = [&] {
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      std::vector<std::atomic<int>> inside(static_cast<size_t>(GetParam()));
+      std::atomic<int> done = 0;
+      workers.for_each(100, 1, [&](WorkRange range) {
+        if (range.worker < 0 || range.worker >= GetParam()) {
+          ++wrong;
+          return;
+        }
+        std::atomic<int>& mine = inside[static_cast<size_t>(range.worker)];
+        if (++mine != 1) ++wrong;
+        std::this_thread::yield();
+        --mine;
+        ++done;
+      });
+      if (done != 100) ++wrong;
+    }
+  };
+  std::thread other(loops);
+  loops();
+  other.join();
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST_P(WorkersOf, StopAtTheFirstExceptionAndRethrowIt) {
   const Workers workers(GetParam());
   std::atomic<int> done = 0;

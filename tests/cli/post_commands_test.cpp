@@ -119,6 +119,26 @@ TEST_F(PostCommands, FramesGoFromFileToFile) {
   EXPECT_EQ(read_exr(path("new/out.0005.exr")).width, 9);
 }
 
+// Vectors that a renderer left at zero, although something comes nearer.
+TEST_F(PostCommands, MissingVectorsAreNamed) {
+  const auto warned = [&](float depth, float motion) {
+    ExrImage second = still_image(8, 8);
+    pixels_of(second, "Z").assign(64, depth);
+    pixels_of(second, "forward.u")[9] = motion;
+    write_exr(path("in.0001.exr"), still_image(8, 8));
+    write_exr(path("in.0002.exr"), second);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_motion_blur(options(
+                  {"motionblur", path("in.%04d.exr"), "-o", path("out.%04d.exr"), "--frames", "1-2"})),
+              0);
+    return testing::internal::GetCapturedStderr().find("all motion vectors of all frames are zero") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned(3, 0));
+  EXPECT_FALSE(warned(3, 1));
+  EXPECT_FALSE(warned(4, 0));  // nothing moves
+}
+
 TEST_F(PostCommands, MistakesAreNamed) {
   EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.png"}), "-o b.png: pictures are written as .exr");
   EXPECT_EQ(refusal({"motionblur", "a.%04d.exr", "-o", "b.exr"}),

@@ -39,8 +39,8 @@ TEST_F(RenderCommandTest, WritesLayersHeaderAndStatistics) {
         "key.diffuse.R", "key.primary.G", "key.secondary.B", "sky.diffuse.R", "sky.emission.B"}) {
     EXPECT_NE(image.find(name), nullptr) << name;
   }
-  for (const char* name :
-       {"worldToCamera", "worldToNDC", "pelage:seed", "pelage:samples", "pelage:version"}) {
+  for (const char* name : {"worldToCamera", "worldToNDC", "screenWindowWidth", "pelage:seed",
+                           "pelage:samples", "pelage:version"}) {
     EXPECT_TRUE(image.attributes.contains(name)) << name;
   }
   EXPECT_EQ(std::get<int>(image.attributes.at("pelage:samples")), 4);
@@ -82,6 +82,30 @@ TEST_F(RenderCommandTest, FramesGoToFilesOfTheirOwn) {
 
   o.output = scene_.path("one.exr");
   EXPECT_THROW(run_render(o), Error);  // two frames, one name
+}
+
+TEST_F(RenderCommandTest, EndingsAreReadInAnyCase) {
+  Options o = options("x.EXR");
+  o.overrides = {{"render.samples", "1"}};
+  EXPECT_EQ(run_render(o), 0);
+  EXPECT_EQ(read_exr(o.output).width, 24);
+}
+
+TEST_F(RenderCommandTest, ScenesWithoutLightAreNamed) {
+  const auto warnings = [&](std::vector<Override> overrides) {
+    Options o = options("x.exr");
+    o.progress = ProgressStyle::kPlain;
+    o.overrides = std::move(overrides);
+    o.overrides.push_back({"render.samples", "1"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_render(o), 0);
+    const std::string shown = testing::internal::GetCapturedStderr();
+    return shown.find("pictures will be black") != std::string::npos ? 1 : 0;
+  };
+  EXPECT_EQ(warnings({}), 0);
+  EXPECT_EQ(warnings({{"lights", "{}"}}), 1);
+  EXPECT_EQ(warnings({{"lights.key.intensity", "0"}, {"lights.sky.radiance", "0"}}), 1);
+  EXPECT_EQ(warnings({{"lights.key.intensity", "0"}, {"lights.sky.intensity", "{keys: {1: 0, 9: 1}}"}}), 0);
 }
 
 TEST_F(RenderCommandTest, OutputThatCannotBeWrittenIsFoundBeforeRendering) {

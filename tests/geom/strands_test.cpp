@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/strands.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
+
+#include "base/error.h"
 
 namespace pelage::strands_test {
 namespace {
@@ -104,20 +108,31 @@ TEST(Strands, OneStrandCanBeCopiedOut) {
   EXPECT_EQ(one.points().data(), points) << "memory is reused";
 }
 
-TEST(StrandsDeathTest, RefusesArraysThatDoNotFit) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  StrandArrays ids = two_strands();
-  ids.ids.pop_back();
-  EXPECT_DEATH(Strands(std::move(ids)), "ids");
-  StrandArrays points = two_strands();
-  points.points.pop_back();
-  EXPECT_DEATH(Strands(std::move(points)), "points");
-  StrandArrays order = two_strands();
-  order.first_point = {0, 10, 9};
-  EXPECT_DEATH(Strands(std::move(order)), "first_point");
-  StrandArrays attribute = two_strands();
-  attribute.attributes[2].values.push_back(0);
-  EXPECT_DEATH(Strands(std::move(attribute)), "values");
+TEST(Strands, RefuseArraysThatDoNotFit) {
+  const auto refusal = [](const std::function<void(StrandArrays&)>& spoil) -> std::string {
+    StrandArrays arrays = two_strands();
+    spoil(arrays);
+    try {
+      Strands strands(std::move(arrays));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto expect = [&](const char* message, const std::function<void(StrandArrays&)>& spoil) {
+    EXPECT_NE(refusal(spoil).find(message), std::string::npos) << refusal(spoil);
+  };
+  expect("`ids` has 1 entries instead of 2", [](StrandArrays& a) { a.ids.pop_back(); });
+  expect("`points`", [](StrandArrays& a) { a.points.pop_back(); });
+  expect("`points`", [](StrandArrays& a) { a.first_point.clear(); });
+  expect("`first_point` does not ascend", [](StrandArrays& a) { a.first_point = {0, 10, 9}; });
+  expect("`first_point` does not begin with 0", [](StrandArrays& a) { a.first_point[0] = 1; });
+  expect("`motion_keys`", [](StrandArrays& a) { a.motion_keys = 0; });
+  expect("`roots`", [](StrandArrays& a) { a.roots.resize(1); });
+  expect("`root_uv`", [](StrandArrays& a) { a.root_uv.resize(3); });
+  expect("component", [](StrandArrays& a) { a.attributes[0].components = 0; });
+  expect(" entries instead of ", [](StrandArrays& a) { a.attributes[2].values.push_back(0); });
 }
 
 }  // namespace

@@ -4,41 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "geom/curve_bounds.h"
-#include "procedurals/bounds/procedural.h"
-#include "procedurals/bounds/segment_parts.h"
+#include "procedurals/fixed_strands.h"
 #include "procedurals/skin/deferred_skin.h"
 
 namespace pelage {
-
-/// A procedural whose strands are given to the constructor instead of being grown.
-class FixedStrands final : public Procedural {
- public:
-  explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
-  Box3f bound(BoundSpan) const override { return pelage::exact_bounds(strands_); }
-  Strands generate() const override { return strands_; }
-  StrandCounts counts() const override {
-    StrandCounts counts;
-    counts.strands = strands_.strand_count();
-    counts.points = strands_.point_count();
-    counts.motion_keys = static_cast<size_t>(strands_.motion_keys());
-    for (size_t i = 0; i < counts.strands; ++i)
-      counts.segments += segment_count(strands_.basis(), strands_.strand_points(i));
-    for (const StrandAttribute& a : strands_.attributes()) counts.attribute_floats += a.values.size();
-    return counts;
-  }
-  StrandScale scale() const override {
-    float radius = 0;
-    for (size_t i = 0; i < strands_.point_count(); ++i) radius = std::max(radius, strands_.radius(i));
-    return {2 * radius, strands_.point_count() > 0 ? strands_.point(0) : V3f(0), 2 * radius};
-  }
-  ChunkBounds exact_bounds(BoundSpan, int keys) const override {
-    return SegmentParts(strands_).exact_bounds(keys);
-  }
-
- private:
-  Strands strands_;
-};
 
 /// A skin whose triangles are given to the constructor. It has a single piece.
 class FixedSkin final : public DeferredSkin {

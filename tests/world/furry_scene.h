@@ -46,6 +46,9 @@ render: {samples: 6, bounces: 2, lod: {enabled: false}}
   std::string scene() const { return path("fur.yaml"); }
 };
 
+/// Makes the scene one that can be rendered: its whiskers lack the attribute `color` that its fur reads.
+inline const Override kColor{"materials.fur.color", "[0.5, 0.3, 0.2]"};
+
 /// A strand as the picture has it, to compare strands from different sources.
 struct ComparedStrand {
   std::vector<float> points;  ///< x, y, z, radius of all keys

@@ -168,6 +168,8 @@ TEST(Camera, HeaderMatricesAgreeWithProjection) {
     V3f ndc, local;
     camera.world_to_ndc().multVecMatrix(p, ndc);  // divides by w
     camera.world_to_camera().multVecMatrix(p, local);
+    // The picture shows this width at distance 1.
+    EXPECT_NEAR(local.x / local.z, (ndc.x - 0.5f) * camera.screen_window_width(), 1e-4f);
     EXPECT_NEAR(ndc.x * kWidth, raster->x, 1e-2f);
     EXPECT_NEAR(ndc.y * kHeight, raster->y, 1e-2f);
     EXPECT_NEAR(local.z, raster->z, 1e-4f);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "image/exr.h"
+#include "render/film/film_layers.h"
+
+namespace pelage {
+
+/// Replaces negative values of a picture, which are noise: samples that share light subtract a guess of it.
+/// In a pixel with such values, the parts of the light become those above zero, scaled so that they still add
+/// up to the radiance; radiance below zero becomes zero. `channels`: all colours of Film::exr_pixels(), in
+/// its order.
+void make_positive(const FilmLayers& layers, std::vector<ExrChannel>& channels);
+
+}  // namespace pelage
