@@ -48,9 +48,9 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "
-               "lights that would add much "
-               "to the brightness of the pixel if nothing blocked them, and whose visibility is uncertain. A "
-               "sample sends at most one ray to each light, or two if there is only one light",
+               "lights that would add much to the brightness of the pixel if nothing blocked them, and whose "
+               "visibility is uncertain. A sample sends at most one ray to each light, or two if there is "
+               "only one light",
            .min = 0.05,
            .max = 16});
     s.key(
@@ -66,9 +66,8 @@ const Schema<GatherParams>& GatherParams::schema() {
            .max = 1});
     s.key("cache", &GatherParams::cache,
           {.help = "true: indirect paths end at the second surface. There, shadow rays are traced, and all "
-                   "other light is "
-                   "read from a cache of cells about 8 pixels large, which paths of the whole picture fill "
-                   "first. Glossy skins are not cached. Needs `reuse: true`",
+                   "other light is read from a cache of cells about 8 pixels large, which paths of the "
+                   "whole picture fill first. Glossy skins are not cached. Needs `reuse: true`",
            .default_text = "true with at least 2 `bounces`; with more than 8 skins, at least 8"});
     s.key("cache_paths", &GatherParams::cache_paths,
           {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});

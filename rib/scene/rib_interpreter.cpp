@@ -14,6 +14,23 @@ namespace {
 constexpr size_t kMaxFiles = 100;           // of nested archives
 constexpr size_t kMaxArchives = 1'000'000;  // read in all
 
+/// Requests that have no effect on the picture of a path tracer.
+constexpr std::string_view kWithoutEffect[] = {"version",
+                                               "Orientation",
+                                               "ReverseOrientation",
+                                               "Sides",
+                                               "ShadingRate",
+                                               "ShadingInterpolation",
+                                               "GeometricApproximation",
+                                               "Integrator",
+                                               "DisplayChannel",
+                                               "PixelFilter",
+                                               "PixelVariance",
+                                               "Quantize",
+                                               "Bound",
+                                               "ErrorHandler",
+                                               "Illuminate"};
+
 }  // namespace
 
 RibInterpreter::RibInterpreter(const RibReadOptions& options, RibContext context)
@@ -91,25 +108,12 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"ReadArchive", &I::read_archive},
       {"Procedural", &I::procedural},
       {"Procedural2", &I::procedural},
-      // No effect on the picture of a path tracer.
-      {"version", &I::ignore},
-      {"Orientation", &I::ignore},
-      {"ReverseOrientation", &I::ignore},
-      {"Sides", &I::ignore},
-      {"ShadingRate", &I::ignore},
-      {"ShadingInterpolation", &I::ignore},
-      {"GeometricApproximation", &I::ignore},
-      {"Integrator", &I::ignore},
-      {"DisplayChannel", &I::ignore},
-      {"PixelFilter", &I::ignore},
-      {"PixelVariance", &I::ignore},
-      {"Quantize", &I::ignore},
-      {"Bound", &I::ignore},
-      {"ErrorHandler", &I::ignore},
-      {"Illuminate", &I::ignore},
   };
   const auto found = table.find(name);
-  return found == table.end() ? nullptr : found->second;
+  if (found != table.end()) return found->second;
+  return std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), name) != std::end(kWithoutEffect)
+             ? &I::ignore
+             : nullptr;
 }
 
 void RibInterpreter::warn_once(const std::string& kind, const SourcePosition& position,
