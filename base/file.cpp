@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/open_file.h"
 #include "base/temporary_file.h"
 
 namespace pelage {
@@ -29,12 +28,20 @@ std::string reason() { return std::strerror(errno); }
   throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, "cannot write: " + why);
 }
 
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
+/// Follows links as target_of_links() does. Returns an empty text, or the reason why that is not possible.
+std::string follow_links(std::filesystem::path& path) {
+  constexpr int kMaxLinks = 40;  // the kernel's limit
+  struct stat link {};
+  for (int i = 0; ::lstat(path.c_str(), &link) == 0 && S_ISLNK(link.st_mode); ++i) {
+    if (i == kMaxLinks) return "too many symbolic links";
+    if (link.st_uid != ::geteuid() && link.st_uid != 0) return "it is a symbolic link of another user";
+    std::error_code error;
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error) return error.message();
+    path = path.parent_path() / target;  // an absolute target replaces the whole path
   }
-};
+  return {};
+}
 
 bool has_contents(const std::filesystem::path& path, std::string_view expected) {
   try {
@@ -63,21 +70,16 @@ ContentHash file_hash(const std::filesystem::path& path) {
   }
 }
 
-std::string read_file(const std::filesystem::path& path, size_t limit) {
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (file.fd < 0) fail_read(path, reason());
-  struct stat info {};
-  if (::fstat(file.fd, &info) != 0) fail_read(path, reason());
-  if (S_ISDIR(info.st_mode)) fail_read(path, "it is a folder");
-  if (!S_ISREG(info.st_mode)) fail_read(path, "it is not a regular file");
-  if (static_cast<size_t>(info.st_size) > limit) {
+std::string read_file(const std::filesystem::path& path, size_t limit, OpenFile::Links links) {
+  const OpenFile file(path, links);
+  if (file.bytes() > limit) {
     fail_read(path,
-              std::to_string(info.st_size) + " bytes; the limit is " + std::to_string(limit) + " bytes");
+              std::to_string(file.bytes()) + " bytes; the limit is " + std::to_string(limit) + " bytes");
   }
-  std::string contents(static_cast<size_t>(info.st_size), '\0');
+  std::string contents(file.bytes(), '\0');
   size_t done = 0;
   while (done < contents.size()) {
-    const ssize_t n = ::read(file.fd, contents.data() + done, contents.size() - done);
+    const ssize_t n = ::read(file.descriptor(), contents.data() + done, contents.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail_read(path, reason());
     if (n == 0) break;
@@ -115,17 +117,10 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-std::filesystem::path target_of_links(std::filesystem::path path) {
-  constexpr int kMaxLinks = 40;  // the kernel's limit
-  const std::filesystem::path named = path;
-  std::error_code error;
-  for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)); ++i) {
-    if (i == kMaxLinks) fail_write(named, "too many symbolic links");
-    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
-    if (error) fail_write(named, error.message());
-    path = path.parent_path() / target;  // an absolute target replaces the whole path
-  }
-  return path;
+std::filesystem::path target_of_links(const std::filesystem::path& path) {
+  std::filesystem::path target = path;
+  if (const std::string why = follow_links(target); !why.empty()) fail_write(path, why);
+  return target;
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -133,11 +128,11 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   }, other{};
   if (::stat(a.c_str(), &one) == 0 && ::stat(b.c_str(), &other) == 0)
     return one.st_ino == other.st_ino && one.st_dev == other.st_dev;
+  std::filesystem::path target_a = a, target_b = b;
+  if (!follow_links(target_a).empty() || !follow_links(target_b).empty()) return false;
   std::error_code error_a, error_b;
-  const auto place_a =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(target_of_links(a)), error_a);
-  const auto place_b =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(target_of_links(b)), error_b);
+  const auto place_a = std::filesystem::weakly_canonical(std::filesystem::absolute(target_a), error_a);
+  const auto place_b = std::filesystem::weakly_canonical(std::filesystem::absolute(target_b), error_b);
   return !error_a && !error_b && place_a == place_b;
 }
 
@@ -226,10 +221,17 @@ bool AtomicFile::commit_over(std::string_view expected) {
   return false;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  AtomicFile file(path);
+void write_file(const std::filesystem::path& path, std::string_view bytes, Links links) {
+  AtomicFile file(path, links);
   file.write(bytes);
   file.commit();
+}
+
+void make_own_folder(const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path, failed);
+  if (failed) fail_write(path, failed.message());
+  if (std::filesystem::is_symlink(path, failed)) fail_write(path, "it is a symbolic link");
 }
 
 }  // namespace pelage

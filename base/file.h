@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "base/open_file.h"
 
 namespace pelage {
 
 /// Returns the contents of a file. Throws Error (kInput) with the path when the file cannot be read, is not a
-/// regular file or is longer than `limit` bytes.
-std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
+/// regular file or is longer than `limit` bytes, and with Links::kRefuse when it is a symbolic link.
+std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30,
+                      OpenFile::Links links = OpenFile::Links::kFollow);
 
 /// foreign_contents() tells from the first 64 bytes of a file whether the file is something else than its
 /// name says: it returns "is a git-lfs pointer, not the file itself", or empty text. foreign_text(), for
@@ -33,16 +35,18 @@ inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< byte-order m
 std::string lower_extension(const std::filesystem::path& path);
 
 /// Follows symbolic links as long as the last component of the path is one, and returns the resulting path.
-/// The target need not exist. Throws Error (kFailed) for cyclic links.
-std::filesystem::path target_of_links(std::filesystem::path path);
+/// The target need not exist. Throws Error (kFailed) for cyclic links, and for a link of another user, who
+/// would decide what is overwritten; root counts as no other user.
+std::filesystem::path target_of_links(const std::filesystem::path& path);
 
 /// Returns whether two paths name the same file, also when they are spelled differently or contain symbolic
-/// or hard links. The files need not exist.
+/// or hard links. The files need not exist. Links that lead nowhere, such as a cycle, name no file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// How AtomicFile treats a symbolic link at its path.
 enum class Links {
-  kFollow,   ///< keeps the link; replaces its target, keeping mode and (if permitted) owner
+  kFollow,   ///< keeps the link; replaces its target, keeping mode and (if permitted) owner; see
+             ///< target_of_links()
   kReplace,  ///< replaces the link itself (or a regular file) by a new file that this user owns
 };
 
@@ -82,7 +86,12 @@ class AtomicFile {
 };
 
 /// Writes a whole file through an AtomicFile. Throws Error (kFailed).
-void write_file(const std::filesystem::path& path, std::string_view bytes);
+void write_file(const std::filesystem::path& path, std::string_view bytes, Links links = Links::kFollow);
+
+/// Creates a folder, with its parents, unless it is there. For folders whose files Pelage names itself.
+/// Throws Error (kFailed) when that is not possible, or when the last component of the path is a symbolic
+/// link.
+void make_own_folder(const std::filesystem::path& path);
 
 /// Returns the content_hash() of all bytes of a file. Reads 256 KiB at a time, so the memory use does not
 /// depend on the size of the file. Throws Error (kInput) when the file cannot be read or is not a regular

@@ -177,7 +177,8 @@ struct Process::Launch {
   }
 
   void open_log(const std::filesystem::path& log) {
-    streams[2] = above_standard(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    streams[2] =
+        above_standard(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
     if (streams[2] < 0) fail(log.string() + ": cannot be written", errno);
     streams[1] = ::fcntl(streams[2], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     if (streams[1] < 0) fail("cannot duplicate a descriptor", errno);

@@ -30,7 +30,8 @@ struct ProcessSetup {
   std::vector<std::string> command;  ///< path of the program, and its arguments
   ProcessStream input = ProcessStream::kNone;
   ProcessStream output = ProcessStream::kPiped, errors = ProcessStream::kPiped;
-  std::filesystem::path log = {};  ///< unless empty: the file for output and errors, in place of the above
+  /// Unless empty: the file for output and errors, in place of the above. It must not be a symbolic link.
+  std::filesystem::path log = {};
   /// What differs from the environment of this process: "NAME=value" sets a variable, "NAME" removes it,
   /// "PREFIX*" removes all whose names start with the prefix.
   std::vector<std::string> environment = {};

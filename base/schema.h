@@ -59,6 +59,7 @@ struct KeyOptions {
   std::string_view default_text = {};  ///< shown instead of the printed default, e.g. "see render"
   std::array<std::string_view, 2> old_names = {};  ///< names of this key in earlier releases, or ""
   Removed removed = {};                            ///< value of an enumeration in earlier releases
+  bool written = false;  ///< whether the value is a folder in which Pelage writes files
 };
 
 class SchemaInfo;

@@ -15,28 +15,16 @@
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
 #include "cli/run.h"
+#include "cli/signals.h"
 #include "farm/shot_cost.h"
 #include "farm/shot_page.h"
 #include "farm/slurm.h"
+#include "world/checkpoint.h"
 
 namespace pelage {
 namespace {
 
 namespace fs = std::filesystem;
-
-int plan_shot(const Options& options) {
-  // --progress sets the style of the tasks; this command itself shows plain progress or none.
-  const bool quiet = options.progress == ProgressStyle::kQuiet;
-  ProgressDisplay display(quiet ? ProgressStyle::kQuiet : ProgressStyle::kPlain, [] { return false; });
-  const SceneDescription scene = read_scene(options, display);
-  const FarmPlan plan{fs::current_path(), options.threads, make_farm_plan(farm_request(options, scene))};
-  if (options.farm.json) {
-    std::cout << plan_json(plan);
-  } else {
-    for (const FarmTask& task : plan.tasks) std::cout << shell_line(task.command) << "\n";
-  }
-  return 0;
-}
 
 RunEstimate estimate_shot(const Options& options, const SceneDescription& scene) {
   Options quiet = options;
@@ -45,11 +33,42 @@ RunEstimate estimate_shot(const Options& options, const SceneDescription& scene)
   return estimate_run(scene, frames_to_estimate(scene.frames.frames), {}, run.job());
 }
 
-SlurmParams slurm_params(const FarmOptions& options, const fs::path& folder, const RunEstimate& estimate) {
+FarmPlan plan_of(const Options& options, const FarmRequest& request) {
+  FarmPlan plan{fs::current_path(), options.threads, make_farm_plan(request)};
+  plan.shot = options.farm.folder;
+  plan.retries = options.farm.retries;
+  return plan;
+}
+
+/// Adds what the tasks will take, and returns it in parts.
+ShotCost add_estimate(const Options& options, const FarmRequest& request, const SceneDescription& scene,
+                      FarmPlan& plan) {
+  const RunEstimate estimate = estimate_shot(options, scene);
+  const ShotCost cost = shot_cost(request, estimate, !scene.render.bvh.file.empty());
+  plan.estimate.render_bytes = reserved_bytes(estimate);
+  plan.estimate.cpu_s = cost.whole_s + cost.repeated_s;
+  return cost;
+}
+
+int plan_shot(const Options& options) {
+  // --progress sets the style of the tasks; this command itself shows plain progress or none.
+  const bool quiet = options.progress == ProgressStyle::kQuiet;
+  ProgressDisplay display(quiet ? ProgressStyle::kQuiet : ProgressStyle::kPlain, [] { return false; });
+  const SceneDescription scene = read_scene(options, display);
+  const FarmRequest request = farm_request(options, scene);
+  FarmPlan plan = plan_of(options, request);
+  if (options.farm.json) {
+    add_estimate(options, request, scene, plan);
+    std::cout << plan_json(plan);
+  } else {
+    for (const FarmTask& task : plan.tasks) std::cout << shell_line(task.command) << "\n";
+  }
+  return 0;
+}
+
+SlurmParams slurm_params(const FarmOptions& options, const fs::path& folder) {
   SlurmParams params;
   params.folder = folder.string();
-  params.render_bytes = reserved_bytes(estimate);
-  params.retries = options.retries;
   if (!options.partition.empty()) params.options.push_back("--partition=" + options.partition);
   if (!options.time.empty()) params.options.push_back("--time=" + options.time);
   params.options.insert(params.options.end(), options.sbatch.begin(), options.sbatch.end());
@@ -60,8 +79,8 @@ void print_submitted(const std::string& folder, const SlurmShot& shot, const Sho
   std::cout << fmt::format("{}: {} in {}; {} reserved for each render, about {} of CPU time in all\n",
                            shot.params.folder, counted(static_cast<int64_t>(shot.plan.tasks.size()), "task"),
                            counted(static_cast<int64_t>(shot.jobs.size()), "job"),
-                           memory_text(static_cast<int64_t>(shot.params.render_bytes)),
-                           duration_text(cost.whole_s + cost.repeated_s));
+                           memory_text(static_cast<int64_t>(shot.plan.estimate.render_bytes)),
+                           duration_text(shot.plan.estimate.cpu_s));
   constexpr double kMuch = 0.1;
   if (!saves && cost.repeated_s > kMuch * cost.whole_s) {
     std::cout << fmt::format(
@@ -80,17 +99,24 @@ int submit_shot(const Options& options) {
   FarmRequest request = farm_request(options, scene);
   request.program = current_program().string();
   SlurmShot shot;
-  shot.plan = {fs::current_path(), options.threads, make_farm_plan(request)};
-  const RunEstimate estimate = estimate_shot(options, scene);
-  shot.params = slurm_params(options.farm, folder, estimate);
+  shot.plan = plan_of(options, request);
+  if (!options.farm.dry_run) {
+    shot.plan.inputs = frame_inputs(scene);
+    check_same_shot(folder, shot.plan);
+  }
+  const ShotCost cost = add_estimate(options, request, scene, shot.plan);
+  shot.params = slurm_params(options.farm, folder);
   shot.jobs = slurm_jobs(shot.plan);
   if (options.farm.dry_run) {
     std::cout << script_text(shot);
     return 0;
   }
-  submit_to_slurm(shot, &SignalGuard::interrupted);
-  const bool stores = !scene.render.bvh.file.empty();
-  print_submitted(options.farm.folder, shot, shot_cost(request, estimate, stores), request.grows && stores);
+  {
+    const SignalGuard signals(
+        "\npelage: stopping after the present job, and cancelling all; press Ctrl-C again to quit now\n");
+    submit_to_slurm(shot, &SignalGuard::interrupted);
+  }
+  print_submitted(options.farm.folder, shot, cost, request.grows && !scene.render.bvh.file.empty());
   return 0;
 }
 
@@ -99,7 +125,7 @@ int show_shot(const Options& options) {
   const auto now = static_cast<int64_t>(std::time(nullptr));
   const ShotState shot = read_shot_state(folder, ask_slurm(folder), now);
   const fs::path page = folder / "index.html";
-  write_file(page, shot_page(shot, folder, update_thumbnails(shot, folder), now));
+  write_file(page, shot_page(shot, folder, update_thumbnails(shot, folder), now), Links::kReplace);
   if (options.farm.json) {
     print_shot_json(shot);
   } else {

@@ -68,7 +68,7 @@ void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
       ->allow_extra_args(false)
       ->type_name("OPTION");
   farm.add_option("--retries", options.retries,
-                  "submit: how often a task that was stopped or killed is started again (default: 9)")
+                  "plan, submit: how often a task that was stopped or killed is started again (default: 9)")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
   farm.add_flag("--dry-run", options.dry_run, "submit: print the scripts, and submit nothing");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
+#include "base/visible_text.h"
 #include "cli/progress_display.h"
 #include "farm/shot_page.h"
 
@@ -36,7 +37,7 @@ void print_shot_json(const ShotState& shot) {
         shot.count(static_cast<TaskStage>(s));
   for (size_t i = 0; i < shot.tasks.size(); ++i)
     json["tasks"].push_back(task_json(shot.plan.tasks[i], shot.tasks[i]));
-  std::cout << json.dump(2) << "\n";
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 void print_shot_text(const ShotState& shot, const std::filesystem::path& folder) {
@@ -52,13 +53,14 @@ void print_shot_text(const ShotState& shot, const std::filesystem::path& folder)
     const bool quiet = task.stage == TaskStage::kDone || task.stage == TaskStage::kWaiting;
     if (quiet && task.starts < 2) continue;
     std::cout << fmt::format("{}: {}", shot.plan.tasks[i].name, stage_name(task.stage));
-    if (task.starts > 0) std::cout << fmt::format(", {} on {}", duration_text(task.busy_s), task.host);
+    if (task.starts > 0)
+      std::cout << fmt::format(", {} on {}", duration_text(task.busy_s), visible(task.host));
     if (task.starts > 1) std::cout << fmt::format(", started {} times", task.starts);
     if (task.stage == TaskStage::kFailed) std::cout << fmt::format(", exit code {}", task.exit_code);
     std::cout << "\n";
     if (task.stage != TaskStage::kFailed) continue;
     const std::string log = (folder / task.log).string(), end = end_of_log(log);
-    std::cout << fmt::format("  {}: {}\n", log, end.substr(end.rfind('\n') + 1));
+    std::cout << fmt::format("  {}: {}\n", log, visible(end.substr(end.rfind('\n') + 1)));
   }
 }
 

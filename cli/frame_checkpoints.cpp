@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/output_files.h"
 #include "render/render_frame.h"
 
@@ -17,6 +18,11 @@ FrameCheckpoints::FrameCheckpoints(const Options& options, const SceneDescriptio
   for (const int frame : scene.frames.frames) {
     const auto file = std::filesystem::path(*options_.folder) / checkpoint_name(frame, region_);
     check_replaces_none("--checkpoint", file, scene.files);
+  }
+  if (std::error_code failed; options_.resume) {
+    if (std::filesystem::exists(*options_.folder, failed))
+      std::filesystem::directory_iterator(*options_.folder, failed);
+    if (failed) throw Error(ErrorKind::kInput, {*options_.folder, 0, 0}, "cannot read: " + failed.message());
   }
   prepare_output(std::filesystem::path(*options_.folder) / "probe.checkpoint");
   inputs_ = frame_inputs(scene);

@@ -18,7 +18,7 @@ namespace pelage {
 class FrameCheckpoints {
  public:
   /// Checks that checkpoints can be written to the folder. Throws Error: kArguments if the scene cannot have
-  /// checkpoints, kFailed if the folder cannot be written.
+  /// checkpoints, kInput if the folder cannot be read to resume, kFailed if it cannot be written.
   FrameCheckpoints(const Options& options, const SceneDescription& scene, Progress& progress);
 
   /// Returns the frames that are not finished. With --resume, reads the checkpoints of all frames, and says

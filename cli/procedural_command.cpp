@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "base/visible_text.h"
 #include "cli/commands.h"
 #include "rib/host/program_replies.h"
 
@@ -21,10 +22,10 @@ class OutputSink final : public RibSink {
 int run_procedural(const Options& options) {
   ProgramReplies replies(options.rib.command);
   OutputSink output;
-  for (std::string request; std::getline(std::cin, request);) {
+  for (std::string request; read_program_request(std::cin, request);) {
     const std::string error = replies.reply(request, output);
     std::cout.flush();
-    if (!error.empty()) std::fprintf(stderr, "pelage: error: %s\n", error.c_str());
+    if (!error.empty()) std::fprintf(stderr, "pelage: error: %s\n", visible(error).c_str());
     if (!std::cout) break;
   }
   return 0;

@@ -14,6 +14,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/visible_text.h"
+
 namespace pelage {
 namespace {
 
@@ -135,7 +137,7 @@ void ProgressDisplay::show(std::string_view kind, std::string_view line) {
         "\n");
     return;
   }
-  target_.write(fmt::format("{}{}\n", line_open_ ? "\r\x1b[K" : "", line));
+  target_.write(fmt::format("{}{}\n", line_open_ ? "\r\x1b[K" : "", visible(line)));
   line_open_ = false;
   if (!stages_.empty() && style_ == ProgressStyle::kBar) draw(false);
 }

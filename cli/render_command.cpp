@@ -155,8 +155,9 @@ int run_render(const Options& options) {
   scene.frames.frames = missing_frames(options, scene.frames, output, run);
   scene.frames.frames =
       checkpoints.unfinished(scene.frames.frames, [&](int frame) { return frame_file_name(output, frame); });
-  if (scene.frames.frames.empty()) {
-    run.finish(options);
+  if (scene.frames.frames.empty()) {  // the statistics of the run that rendered them remain
+    if (std::error_code none; options.stats && !std::filesystem::exists(*options.stats, none))
+      run.finish(options);
     return 0;
   }
   FrameOptions how;

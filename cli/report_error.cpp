@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/visible_text.h"
 #include "cli/signals.h"
 
 namespace pelage {
@@ -30,7 +31,7 @@ std::string error_text(const Error& error) {
   for (size_t i = 0; i < shown; ++i) {
     const Problem& problem = error.problems()[i];
     const std::string where = to_string(problem.position);
-    text += (where.empty() ? "pelage: error" : where) + ": " + problem.message + "\n";
+    text += visible((where.empty() ? "pelage: error" : where) + ": " + problem.message) + "\n";
   }
   const size_t left = error.problems().size() - shown;
   if (left > 0) text += "pelage: error: and " + std::to_string(left) + " more\n";

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/exr.h"
@@ -37,6 +38,9 @@ struct FarmTask {
   std::vector<std::string> after;    ///< names of the tasks that must be finished before
   std::string output;                ///< picture that the task writes; empty for "grow"
   uint64_t memory = 0;               ///< its memory budget in bytes; 0 for "merge"
+
+  /// "grow", "render" or "merge".
+  std::string_view kind() const { return std::string_view(name).substr(0, name.find('-')); }
 };
 
 /// Divides a picture into boxes, row by row. Their borders are at multiples of 16 pixels, where `gather` and

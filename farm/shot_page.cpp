@@ -8,11 +8,14 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory_budget.h"
+#include "base/visible_text.h"
 #include "image/display_image.h"
 #include "image/exr_file.h"
 #include "image/view_transform.h"
@@ -40,7 +43,7 @@ pre{margin:.3em 0;white-space:pre-wrap;background:#f1f1f1;padding:6px;border-rad
 
 std::string html_escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : visible(text)) {
     if (c == '<')
       result += "&lt;";
     else if (c == '>')
@@ -49,7 +52,7 @@ std::string html_escaped(std::string_view text) {
       result += "&amp;";
     else if (c == '"')
       result += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n')
+    else
       result += c;
   }
   return result;
@@ -90,7 +93,7 @@ std::map<int, ShotFrame> frames_of(const ShotState& shot) {
   for (size_t i = 0; i < shot.plan.tasks.size(); ++i) {
     const FarmTask& task = shot.plan.tasks[i];
     if (!task.frame) continue;
-    if (task.name.starts_with("merge-")) {
+    if (task.kind() == "merge") {
       frames[*task.frame].merge = i;
     } else {
       frames[*task.frame].renders.push_back(i);
@@ -193,7 +196,8 @@ std::string summary_html(const ShotState& shot) {
       fmt::format("<div class=bar>{}</div><div class=key>{}</div><p>{} of machine time, {} of CPU time", bar,
                   key, hours(busy_s), hours(cpu_s));
   if (peak > 0) text += "; max memory of a task " + memory_text(peak);
-  if (shot.reserved_bytes > 0) text += ", reserved " + memory_text(shot.reserved_bytes);
+  if (const uint64_t bytes = shot.plan.estimate.render_bytes; bytes > 0)
+    text += ", reserved " + memory_text(static_cast<int64_t>(bytes));
   return text + "</p>\n";
 }
 
@@ -236,8 +240,19 @@ void write_thumbnail(const std::filesystem::path& picture, const std::filesystem
       }
     }
   }
-  write_display_image(png, image);
+  write_display_image(png, image, Links::kReplace);
 }
+
+namespace {
+
+/// Whether a file belongs to the owner of the shot. A plan of somebody else must not show pictures of the
+/// user who looks at it.
+bool belongs_to(const ShotState& shot, const std::filesystem::path& picture) {
+  struct stat info {};
+  return ::lstat(picture.c_str(), &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == shot.owner;
+}
+
+}  // namespace
 
 PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::path& folder) {
   PagePictures pictures;
@@ -253,7 +268,8 @@ PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::pat
     const auto made = std::filesystem::last_write_time(folder / name, error);
     const bool fresh = !error && made >= std::filesystem::last_write_time(picture, error) && !error;
     try {
-      std::filesystem::create_directories(folder / "thumbs", error);
+      if (!belongs_to(shot, picture)) continue;
+      make_own_folder(folder / "thumbs");
       if (!fresh) write_thumbnail(picture, folder / name, kThumbnailWidth);
       pictures[number] = name;
     } catch (const Error&) {
@@ -266,7 +282,11 @@ PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::pat
 std::string end_of_log(const std::filesystem::path& log) {
   std::string text;
   try {
-    text = read_file(log);
+    const OpenFile file(log, OpenFile::Links::kRefuse);
+    const size_t skipped = file.bytes() - std::min(file.bytes(), kLogBytes);
+    text.resize(file.bytes() - skipped);
+    const ssize_t read = ::pread(file.descriptor(), text.data(), text.size(), static_cast<off_t>(skipped));
+    text.resize(static_cast<size_t>(std::max<ssize_t>(0, read)));
   } catch (const Error&) {
     return {};
   }
@@ -276,7 +296,6 @@ std::string end_of_log(const std::filesystem::path& log) {
     const size_t line = text.rfind('\n', begin - 1);
     begin = line == std::string::npos ? 0 : line;
   }
-  begin = std::max(begin, text.size() - std::min(text.size(), kLogBytes));
   return text.substr(begin < text.size() && text[begin] == '\n' ? begin + 1 : begin);
 }
 

@@ -14,7 +14,7 @@ namespace pelage {
 using PagePictures = std::map<int, std::string>;
 
 /// Brings the thumbnails of all finished frames in `folder`/thumbs up to date, and returns them. Pictures
-/// that cannot be read have none.
+/// that cannot be read have none, nor have links and pictures that do not belong to the owner of the shot.
 PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::path& folder);
 
 /// Returns a page that shows a shot: frames with thumbnails, times, memory, regions and failures. It needs no
@@ -23,7 +23,8 @@ PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::pat
 std::string shot_page(const ShotState& shot, const std::filesystem::path& folder,
                       const PagePictures& pictures, int64_t now);
 
-/// Returns the last lines of the log of a task, for a message.
+/// Returns the last lines of the log of a task, for a message: at most 4,000 bytes. They may contain
+/// anything.
 std::string end_of_log(const std::filesystem::path& log);
 
 /// Writes a small PNG of an EXR picture, at most `width` pixels wide, as a screen shows it. Each pixel is the

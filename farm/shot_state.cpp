@@ -2,7 +2,7 @@
 #include "farm/shot_state.h"
 
 #include <algorithm>
-#include <set>
+#include <charconv>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -14,9 +14,12 @@
 namespace pelage {
 namespace {
 
+/// Returns the text of a file that others may have written; empty for links, and for more than any shot
+/// needs.
 std::string text_of(const std::filesystem::path& path) {
+  constexpr size_t kLongest = size_t(64) << 20;
   try {
-    return read_file(path);
+    return read_file(path, kLongest, OpenFile::Links::kRefuse);
   } catch (const Error&) {
     return {};
   }
@@ -86,12 +89,17 @@ int64_t ShotState::count(TaskStage stage) const {
 
 QueuedElements parse_queue(std::string_view text) {
   QueuedElements queue;
-  std::istringstream lines{std::string(text)};
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
     int64_t job = 0, element = 0;
-    std::string state;
-    if (words >> job >> element >> state) queue[{job, element}] = state;
+    const char* end = line.data() + line.size();
+    const auto [blank, no_job] = std::from_chars(line.data(), end, job);
+    if (no_job != std::errc() || blank == end) continue;
+    const auto [second, no_element] = std::from_chars(blank + 1, end, element);
+    if (no_element != std::errc() || second == end || second + 1 == end) continue;
+    const std::string_view state(second + 1, static_cast<size_t>(end - second - 1));
+    queue.insert_or_assign(queue.end(), {job, element}, std::string(state.substr(0, state.find(' '))));
   }
   return queue;
 }
@@ -100,20 +108,30 @@ TaskState read_events(std::string_view text, int64_t now) {
   TaskState state;
   std::istringstream lines{std::string(text)};
   int64_t start = 0;
+  std::string looker;  // host of a start that finds the task finished
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     int64_t time = 0;
     std::string event;
     if (!(words >> time >> event)) continue;
     if (event == "start") {
-      std::string attempt;
-      words >> attempt >> state.host;
+      std::string attempt, host;
+      words >> attempt >> host;
+      looker = state.stage == TaskStage::kDone ? host : "";
+      if (looker.empty()) {
+        state.host = host;
+        ++state.starts;
+      }
       state.stage = TaskStage::kRunning;
-      ++state.starts;
       start = time;
       if (state.began == 0) state.began = time;
     } else if (event == "end" && words >> state.exit_code) {
       state.stage = state.exit_code == 0 ? TaskStage::kDone : TaskStage::kFailed;
+      if (!looker.empty() && state.exit_code != 0) {
+        state.host = looker;
+        ++state.starts;
+      }
+      looker.clear();
       if (start > 0) state.busy_s += static_cast<double>(time - start);
       start = 0;
       state.ended = time;
@@ -129,13 +147,9 @@ TaskState read_events(std::string_view text, int64_t now) {
 
 ShotState read_shot_state(const std::filesystem::path& folder, const std::optional<QueuedElements>& queue,
                           int64_t now) {
-  const std::filesystem::path file = folder / "plan.json";
-  if (std::error_code error; !std::filesystem::exists(file, error)) {
-    throw Error(ErrorKind::kInput, {folder.string(), 0, 0},
-                "is not the folder of a shot that `pelage farm submit` has made: it has no plan.json");
-  }
   ShotState shot;
-  shot.plan = parse_plan(read_file(file), file);
+  shot.plan = read_plan(folder);
+  shot.owner = OpenFile(folder / "plan.json", OpenFile::Links::kRefuse).owner();
   shot.tasks.resize(shot.plan.tasks.size());
   const auto numbers = read_jobs(folder);
   for (const SlurmJob& job : slurm_jobs(shot.plan)) {
@@ -150,7 +164,6 @@ ShotState read_shot_state(const std::filesystem::path& folder, const std::option
       if (queue && submitted != numbers.end()) apply_queue(*queue, submitted->second, i, state);
     }
   }
-  std::istringstream(text_of(folder / "reserved")) >> shot.reserved_bytes;
   return shot;
 }
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <unistd.h>
+
 #include "farm/plan_file.h"
 
 namespace pelage {
@@ -27,7 +29,8 @@ std::string_view stage_name(TaskStage stage);
 /// What is known about a task.
 struct TaskState {
   TaskStage stage = TaskStage::kWaiting;
-  int starts = 0;          ///< how often its command was started
+  /// How often its command was started. A start of a task that was finished counts only if it fails.
+  int starts = 0;
   int64_t began = 0;       ///< first start, in seconds since 1970; 0: never
   int64_t ended = 0;       ///< last end; 0: none
   double busy_s = 0;       ///< sum over all starts
@@ -42,7 +45,7 @@ struct TaskState {
 struct ShotState {
   FarmPlan plan;
   std::vector<TaskState> tasks;  ///< by task of the plan
-  int64_t reserved_bytes = 0;    ///< memory that is reserved for a render; 0: unknown
+  uid_t owner = ::geteuid();     ///< of the plan
 
   int64_t count(TaskStage stage) const;
 };
@@ -58,9 +61,9 @@ QueuedElements parse_queue(std::string_view text);
 /// a running task counts as busy.
 TaskState read_events(std::string_view text, int64_t now);
 
-/// Reads the state of a shot from its folder, without asking a queue. `queue`: what the queue knows; empty if
-/// it was not asked. Then a task whose machine failed counts as running. Throws Error (kInput) if the folder
-/// has no plan, or a damaged one.
+/// Reads the state of a shot from its folder, without asking a queue. Follows no symbolic link there.
+/// `queue`: what the queue knows; empty if it was not asked. Then a task whose machine failed counts as
+/// running. Throws Error (kInput) if the folder has no plan, or a damaged one.
 ShotState read_shot_state(const std::filesystem::path& folder, const std::optional<QueuedElements>& queue,
                           int64_t now);
 

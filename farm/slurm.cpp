@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,9 +35,11 @@ ProcessResult run_slurm(const std::string& program, std::vector<std::string> arg
   return run_process(setup, limits);
 }
 
-std::string last_line(std::string text) {
-  text.resize(text.find_last_not_of('\n') + 1);
-  return text.substr(text.rfind('\n') + 1);
+std::string last_line(std::string_view text) {
+  constexpr size_t kLongest = 400;
+  text = text.substr(0, text.find_last_not_of('\n') + 1);
+  text.remove_prefix(text.rfind('\n') + 1);
+  return std::string(text.substr(0, kLongest));
 }
 
 std::set<int64_t> jobs_in_queue(const fs::path& folder, const QueuedElements& queue) {
@@ -76,14 +79,54 @@ class Cancelling {
   }
 };
 
+constexpr const char* kFolders[] = {"state", "logs", "tasks", "stats", "checkpoints", "pieces"};
+
+/// Refuses symbolic links in the folder of a shot, which scripts and Slurm would follow: whoever made one
+/// decides what is overwritten.
+void refuse_links(const fs::path& folder) {
+  std::error_code ignored;
+  const auto check = [&](const fs::path& path) {
+    if (fs::is_symlink(path, ignored))
+      throw Error(ErrorKind::kInput, {path.string(), 0, 0},
+                  "is a symbolic link; Pelage follows none inside the folder of a shot");
+  };
+  for (const char* name : {"jobs", "submit.log"}) check(folder / name);
+  for (const char* name : kFolders) {
+    check(folder / name);
+    std::error_code failed;
+    for (fs::directory_iterator at(folder / name, failed), end; !failed && at != end; at.increment(failed)) {
+      if (at->is_symlink(ignored)) check(at->path());
+    }
+  }
+}
+
 void write_shot(const SlurmShot& shot) {
   const fs::path folder = shot.params.folder;
-  for (const char* name : {"state", "logs", "tasks"}) fs::create_directories(folder / name);
-  write_file(folder / "plan.json", plan_json(shot.plan));
-  write_file(folder / "task.sh", task_script(shot.params));
-  for (const SlurmJob& job : shot.jobs) write_file(folder / "tasks" / job.name, task_list(shot.plan, job));
-  write_file(folder / "submit.sh", submit_script(shot.plan, shot.jobs, shot.params));
-  write_file(folder / "reserved", std::to_string(shot.params.render_bytes) + "\n");
+  const auto write = [&](const fs::path& name, const std::string& text) {
+    write_file(folder / name, text, Links::kReplace);
+  };
+  for (const char* name : kFolders) make_own_folder(folder / name);
+  write("plan.json", plan_json(shot.plan));
+  write("task.sh", task_script(shot.plan, shot.params));
+  for (const SlurmJob& job : shot.jobs) write("tasks/" + job.name, task_list(shot.plan, job));
+  write("submit.sh", submit_script(shot.plan, shot.jobs, shot.params));
+}
+
+/// Cancels what was submitted before the user stopped the submission.
+[[noreturn]] void undo_submission(const fs::path& folder) {
+  std::string undone;
+  try {
+    undone = counted(static_cast<int64_t>(cancel_in_slurm(folder)), "submitted job") + " cancelled";
+  } catch (const Error& error) {
+    undone = std::string("submitted jobs may still be in the queue: ") + error.what();
+  }
+  throw Error(ErrorKind::kStopped, "stopped; " + undone + "; `pelage farm submit` continues the shot");
+}
+
+bool was_submitted(const fs::path& folder) {
+  std::error_code none;
+  const auto bytes = fs::file_size(folder / "jobs", none);
+  return !none && bytes > 0;
 }
 
 }  // namespace
@@ -96,7 +139,7 @@ fs::path shot_folder(const fs::path& given) {
 std::optional<QueuedElements> ask_slurm(const fs::path& folder) {
   if (!find_program("squeue")) return {};
   struct stat jobs {};
-  const uid_t owner = ::stat((folder / "jobs").c_str(), &jobs) == 0 ? jobs.st_uid : ::geteuid();
+  const uid_t owner = ::lstat((folder / "jobs").c_str(), &jobs) == 0 ? jobs.st_uid : ::geteuid();
   const ProcessResult result =
       run_slurm("squeue", {"-h", "-r", "-u", std::to_string(owner), "-o", "%F %K %T"});
   if (!result.end.succeeded()) return {};
@@ -109,8 +152,8 @@ void check_can_submit(const fs::path& folder) {
                 "sbatch is not in PATH: this machine has no Slurm; `pelage farm plan` prints the tasks for "
                 "other queues");
   }
-  std::error_code none;
-  if (const auto bytes = fs::file_size(folder / "jobs", none); none || bytes == 0) return;
+  refuse_links(folder);
+  if (!was_submitted(folder)) return;
   const auto queue = ask_slurm(folder);
   if (!queue) {
     throw Error(ErrorKind::kFailed,
@@ -125,9 +168,21 @@ void check_can_submit(const fs::path& folder) {
   }
 }
 
+void check_same_shot(const fs::path& folder, const FarmPlan& plan) {
+  std::error_code ignored;
+  if (!was_submitted(folder) || !fs::exists(folder / "plan.json", ignored)) return;
+  const FarmPlan before = read_plan(folder);
+  // A plan that has been written has no bytes that are not UTF-8.
+  const std::string differences = plan_differences(before, parse_plan(plan_json(plan), folder));
+  if (differences.empty()) return;
+  throw Error(ErrorKind::kArguments,
+              folder.string() + ": the folder has another shot, because these differ: " + differences +
+                  "; use another --dir, or remove the folder");
+}
+
 std::string script_text(const SlurmShot& shot) {
   const auto& [plan, params, jobs] = shot;
-  std::string text = "# " + params.folder + "/task.sh\n" + task_script(params) + "\n";
+  std::string text = "# " + params.folder + "/task.sh\n" + task_script(plan, params) + "\n";
   for (const SlurmJob& job : jobs)
     text += "# " + params.folder + "/tasks/" + job.name + "\n" + task_list(plan, job) + "\n";
   return text + "# " + params.folder + "/submit.sh\n" + submit_script(plan, jobs, params);
@@ -140,7 +195,10 @@ void submit_to_slurm(const SlurmShot& shot, const std::function<bool()>& cancell
   setup.log = folder / "submit.log";
   ProcessLimits limits;
   limits.cancelled = cancelled;
-  if (run_process(setup, limits).end.succeeded()) return;
+  limits.kill_delay_s = kNoLimit_s;  // the script ends as soon as it has noted the present job
+  const ProcessEnd end = run_process(setup, limits).end;
+  if (end.interrupted) undo_submission(folder);
+  if (end.succeeded()) return;
   throw Error(ErrorKind::kFailed, "Slurm did not accept all jobs: " + last_line(end_of_log(setup.log)) +
                                       "; `pelage farm cancel " + folder.string() +
                                       "` cancels those that it did");

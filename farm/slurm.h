@@ -28,15 +28,21 @@ std::filesystem::path shot_folder(const std::filesystem::path& given);
 /// no Slurm, or if it does not answer.
 std::optional<QueuedElements> ask_slurm(const std::filesystem::path& folder);
 
-/// Throws Error if there is no Slurm (kFailed), or if jobs of the shot may still be in the queue
-/// (kArguments; kFailed if the queue does not answer): two jobs of the same task would write the same files.
+/// Throws Error if there is no Slurm (kFailed), if the folder contains a symbolic link (kInput), or if jobs
+/// of the shot may still be in the queue (kArguments; kFailed if the queue does not answer): two jobs of the
+/// same task would write the same files.
 void check_can_submit(const std::filesystem::path& folder);
+
+/// Throws Error (kArguments), and names what differs, if another shot was submitted in the folder: its
+/// finished pictures would count as those of `plan`, and its checkpoints would stop the tasks.
+void check_same_shot(const std::filesystem::path& folder, const FarmPlan& plan);
 
 /// Returns all scripts of a shot as one text, for people.
 std::string script_text(const SlurmShot& shot);
 
-/// Writes the plan and the scripts of a shot to its folder, and submits its jobs. Throws Error (kFailed) with
-/// the last line that Slurm printed.
+/// Writes the plan and the scripts of a shot to its folder, and submits its jobs. When cancelled, waits until
+/// Slurm has answered for the present job, cancels all jobs, and throws Error (kStopped). Throws Error
+/// (kFailed) with the last line that Slurm printed.
 void submit_to_slurm(const SlurmShot& shot, const std::function<bool()>& cancelled);
 
 /// Cancels the jobs of a shot that have not ended, and returns their number. Throws Error: kInput if the

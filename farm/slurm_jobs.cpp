@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/program.h"
 
@@ -15,11 +16,9 @@ namespace {
 // only.
 std::string word(const std::string& text) { return shell_line({text}); }
 
-bool is_merge(const FarmTask& task) { return task.name.starts_with("merge-"); }
-
 // Whether two tasks can be elements of the same array.
 bool alike(const FarmTask& a, const FarmTask& b) {
-  return a.after == b.after && a.region.has_value() == b.region.has_value() && is_merge(a) == is_merge(b) &&
+  return a.after == b.after && a.region.has_value() == b.region.has_value() && a.kind() == b.kind() &&
          (!a.region || a.frame == b.frame);
 }
 
@@ -29,9 +28,9 @@ std::string job_name(const FarmPlan& plan, const SlurmJob& job, size_t number) {
   return fmt::format("render-{:04}{}", *first.frame, number > 0 ? fmt::format("-part{}", number) : "");
 }
 
-std::string element_line(const SlurmParams& params, const FarmPlan& plan, const SlurmJob& job) {
-  const bool merges = is_merge(plan.tasks[job.tasks.front()]);
-  const uint64_t bytes = merges ? params.merge_bytes : params.render_bytes;
+std::string element_line(const FarmPlan& plan, const SlurmJob& job) {
+  const bool merges = plan.tasks[job.tasks.front()].kind() == "merge";
+  const uint64_t bytes = merges ? plan.estimate.merge_bytes : plan.estimate.render_bytes;
   std::string line = fmt::format("--mem={}M", (bytes + (1 << 20) - 1) >> 20);
   if (merges) return line + " --cpus-per-task=1";
   return line + (plan.threads > 0 ? fmt::format(" --cpus-per-task={}", plan.threads) : " --exclusive");
@@ -84,13 +83,18 @@ std::string task_list(const FarmPlan& plan, const SlurmJob& job) {
   return text;
 }
 
-std::string task_script(const SlurmParams& params) {
+std::string task_script(const FarmPlan& plan, const SlurmParams& params) {
   return fmt::format(R"sh(#!/bin/bash
 # Runs one task of a shot: line $SLURM_ARRAY_TASK_ID of a list. Stops it before the time limit (SIGUSR1) and when the job
 # is cancelled (SIGTERM); both write a checkpoint. Queues it again if it was stopped or killed, but not if it was cancelled.
 folder={0}
 read -r name command < <(sed -n "${{SLURM_ARRAY_TASK_ID}}p" "$1")
 [ "$command" ] || {{ echo "$1 has no line $SLURM_ARRAY_TASK_ID" >&2; exit 1; }}
+for file in jobs state "state/$name"; do
+  [ ! -L "$folder/$file" ] || {{ echo "$folder/$file is a symbolic link" >&2; exit 3; }}
+done
+# A submission that was killed may not have noted this job.
+grep -qs "^$SLURM_ARRAY_JOB_ID " "$folder/jobs" || echo "$SLURM_ARRAY_JOB_ID ${{1##*/}}" >> "$folder/jobs"
 # Begins a line, because the last one may have been cut off (full disk, power failure).
 note() {{ printf '\n%s %s\n' "$(date +%s)" "$*" >> "$folder/state/$name"; }}
 note start "${{SLURM_RESTART_COUNT:-0}}" "${{SLURMD_NODENAME:-$(hostname)}}" "$SLURM_JOB_ID"
@@ -107,7 +111,7 @@ while :; do
 done
 note end "$code"
 case $code in
-  143|129|137|1)
+  {2})
     if [ "$cancelled" ]; then
       note cancelled
     elif [ "${{SLURM_RESTART_COUNT:-0}}" -lt {1} ]; then
@@ -118,34 +122,38 @@ case $code in
 esac
 exit "$code"
 )sh",
-                     word(params.folder), params.retries);
+                     word(params.folder), plan.retries, fmt::join(kRetriedCodes, "|"));
 }
 
 std::string submit_script(const FarmPlan& plan, const std::vector<SlurmJob>& jobs,
                           const SlurmParams& params) {
   std::string text = fmt::format(R"sh(#!/bin/bash
-# Submits the tasks of a shot to Slurm, and notes the numbers of the jobs in `jobs`.
+# Submits the tasks of a shot to Slurm, and notes the numbers of the jobs in `jobs`. SIGTERM stops it before the next
+# job. It does not reach sbatch, because a job that Slurm accepts must be noted.
 set -e
 folder={0}
 cd {1}
+trap 'stopped=1' TERM
 submit() {{   # NAME ELEMENTS DEPENDENCY OPTION...: sets $id
   local name=$1 elements=$2 after=$3; shift 3
-  id=$(sbatch --parsable --job-name="$name" --array="1-$elements" --chdir={1} --output="${{folder//%/%%}}/logs/%x-%a.txt" \
+  [ -z "$stopped" ] || exit 143
+  id=$(trap '' TERM; exec sbatch --parsable --job-name="$name" --array="1-$elements" --chdir={1} --output="${{folder//%/%%}}/logs/%x-%a.txt" \
     --open-mode=append --requeue --signal=B:USR1@{2} ${{after:+--dependency="$after" --kill-on-invalid-dep=yes}} \
     "$@" {3} "$folder/task.sh" "$folder/tasks/$name")
+  id=${{id:0:64}}   # patterns take forever on a long text
   id=${{id%%;*}}
-  echo "$id $name" >> "$folder/jobs"
+  case $id in ''|*[!0-9]*) echo "sbatch printed no number of a job" >&2; exit 1 ;; esac
+  grep -qs "^$id " "$folder/jobs" || echo "$id $name" >> "$folder/jobs"
 }}
 )sh",
                                  word(params.folder), word(plan.folder.string()), params.warning_s,
                                  shell_line(params.options));
-  std::vector<std::string> last;
   for (size_t i = 0; i < jobs.size(); ++i) {
     std::string after;
     for (const size_t before : jobs[i].after) after += fmt::format(":$j{}", before);
     if (!after.empty()) after = "afterok" + after;
     text += fmt::format("submit {} {} \"{}\" {}; j{}=$id\n", jobs[i].name, jobs[i].tasks.size(), after,
-                        element_line(params, plan, jobs[i]), i);
+                        element_line(plan, jobs[i]), i);
   }
   return text;
 }

@@ -11,10 +11,7 @@ namespace pelage {
 
 /// How Slurm shall run the tasks of a shot.
 struct SlurmParams {
-  std::string folder;                          ///< of the shot: scripts, logs, state; an absolute path
-  uint64_t render_bytes = 0;                   ///< memory to reserve for a task that reads the scene
-  uint64_t merge_bytes = uint64_t{512} << 20;  ///< memory to reserve for a merge
-  int retries = 9;  ///< how often a task that was stopped or killed is queued again
+  std::string folder;  ///< of the shot: scripts, logs, state; an absolute path
   /// Seconds before the time limit at which Slurm signals a task to write its checkpoint.
   int warning_s = 60;
   std::vector<std::string> options;  ///< for each call of sbatch: --partition=P, --time=60 ...
@@ -40,13 +37,13 @@ std::string log_name(const SlurmJob& job, size_t element);
 /// Returns the list of an array job: a line for each element, with the name of the task and its command.
 std::string task_list(const FarmPlan& plan, const SlurmJob& job);
 
-/// Returns the script that each element of an array runs: it starts the command of its task, notes when the
-/// command starts and ends, stops it ahead of the time limit, and queues it again if it was stopped or
-/// killed.
-std::string task_script(const SlurmParams& params);
+/// Returns the script that each element of an array runs: it notes its job, unless submit_script() has noted
+/// it, starts the command of its task, notes when the command starts and ends, stops it ahead of the time
+/// limit, and queues it again if it was stopped or killed.
+std::string task_script(const FarmPlan& plan, const SlurmParams& params);
 
-/// Returns the script that submits all jobs and notes their numbers. It needs task_script() as `task.sh` and
-/// the lists as `tasks/NAME` in the folder of the shot.
+/// Returns the script that submits all jobs and notes their numbers. SIGTERM stops it before the next job. It
+/// needs task_script() as `task.sh` and the lists as `tasks/NAME` in the folder of the shot.
 std::string submit_script(const FarmPlan& plan, const std::vector<SlurmJob>& jobs, const SlurmParams& params);
 
 }  // namespace pelage

@@ -2,7 +2,6 @@
 #include "image/display_image.h"
 
 #include "base/error.h"
-#include "base/file.h"
 #include "image/image_reader.h"
 
 namespace pelage {
@@ -12,9 +11,9 @@ bool is_display_image(const std::filesystem::path& path) {
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
-void write_display_image(const std::filesystem::path& path, const DisplayImage& image) {
+void write_display_image(const std::filesystem::path& path, const DisplayImage& image, Links links) {
   const ImageReader module;
-  AtomicFile file(path);
+  AtomicFile file(path, links);
   if (const std::string problem = module.write(file.temporary_path(), image); !problem.empty())
     throw Error(ErrorKind::kFailed, path.string() + ": cannot write: " + problem);
   file.commit();

@@ -58,9 +58,10 @@ int run_compare(const LabOptions& options) {
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));
     if (interrupted) report.abstract = "Interrupted: the comparison is incomplete. " + report.abstract;
     report.runs = fibres_json(comparison.fibres);
-    write_file(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)));
+    write_file(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)), Links::kReplace);
     if (!comparison.fibres.empty())
-      write_file(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)));
+      write_file(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)),
+                 Links::kReplace);
     write_report(folder, report);
     std::cout << (folder / "report.html").string() << "\n";
   }

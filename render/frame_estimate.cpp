@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/heap.h"
@@ -143,8 +144,14 @@ void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Jo
 
 void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& job,
                 FrameEstimate& estimate) {
-  BoundingCounts counts;
-  const ResidentChunks resident(chunks.bounds(job, counts), chunks, options_of(scene, chunks, job), job);
+  // The size of a chunk does not depend on its box. In a crowd, finding the real boxes takes longer than
+  // everything else here.
+  std::vector<ChunkBounds> boxes(chunks.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const V3f corner(static_cast<float>(i), 0, 0);
+    boxes[i].boxes = {Box3f(corner, corner + V3f(1))};
+  }
+  const ResidentChunks resident(std::move(boxes), chunks, options_of(scene, chunks, job), job);
   std::vector<double> weights;
   for (uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
     const ChunkCounts n = chunks.counts(chunk);
@@ -213,12 +220,11 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   if (scene.render.integrator == Integrator::kGather) tiles = GatherTracer::reserve(scene, job);
   estimate.buffer_bytes = job.ledger.budgeted() - before;
 
-  FrameChunks chunks(scene, job);
+  const FrameChunks chunks(scene, job);
   trim_heap();
   estimate.scene_bytes = current_rss_bytes();
   estimate.preparing_bytes = peak_rss_bytes();
   const int64_t taken = job.ledger.budgeted();
-  chunks.bound_coarsely();
   estimate.shadows = estimate_shadows(scene, job);
   add_chunks(scene, chunks, job, estimate);
   estimate.chunk_bytes = static_cast<int64_t>(reached_fraction(scene, window.traced, estimate.chunks) *

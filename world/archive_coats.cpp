@@ -42,7 +42,9 @@ std::shared_ptr<const ArchiveScene> open_scene(const std::filesystem::path& path
                                                const SceneDescription& picture, const Job& job) {
   auto opened = std::make_shared<ArchiveScene>();
   SceneDescription& scene = opened->scene;
-  scene = load_scene(path, arguments.overrides);
+  RibUse use;
+  use.overrides = true;
+  scene = load_scene(path, arguments.overrides, use);
   for (const Problem& warning : scene.warnings)
     job.progress.warn(to_string(warning.position) + ": " + warning.message);
   // The picture has lights of its own. Archives of the other scene are not part of coats.

@@ -62,8 +62,10 @@ Checkpoint::Checkpoint(std::filesystem::path file, FrameInputs inputs, Schedule 
 }
 
 Checkpoint::Found Checkpoint::find(const std::filesystem::path& picture) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file_, ignored)) return Found::kNothing;
+  std::error_code failed;
+  const bool exists = std::filesystem::exists(file_, failed);
+  if (failed) throw Error(ErrorKind::kInput, {file_.string(), 0, 0}, "cannot read: " + failed.message());
+  if (!exists) return Found::kNothing;
   try {
     found_.emplace(file_);
   } catch (const Error& error) {

@@ -50,7 +50,8 @@ class Checkpoint final : public FrameSaver {
   };
   /// Looks for an earlier checkpoint and remembers it for restore(). `picture`: the file that the frame is
   /// written to; a frame counts as finished only while this file has the contents with which it was finished.
-  /// Throws Error (kInput) when the checkpoint belongs to another render; the message names what differs.
+  /// Throws Error (kInput) when the checkpoint belongs to another render, and names what differs, or when the
+  /// folder does not show whether there is one.
   Found find(const std::filesystem::path& picture);
   /// Call before the frame is rendered. `poses`: World::poses. Throws the same error if the checkpoint has
   /// other poses.

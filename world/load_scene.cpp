@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -209,15 +210,57 @@ size_t memory_of(const std::string& text) {
   return bytes > 0 ? bytes : std::numeric_limits<size_t>::max();
 }
 
+/// Removes the folders that Pelage would write into from values that come from RIB files or tables of
+/// materials, with a warning for each: a file of a stranger must not decide where files appear. The user can
+/// name such folders on the command line.
+void drop_folders(Value& block, const SchemaInfo& schema, bool only_overrides,
+                  std::vector<Problem>& warnings) {
+  std::erase_if(block.entries(), [&](Value::Entry& entry) {
+    const KeyInfo* key = schema.find(entry.key);
+    if (!key) return false;
+    key->visit_blocks(entry.value, [&](Value& inner, const SchemaInfo& of) {
+      drop_folders(inner, of, only_overrides, warnings);
+    });
+    if (!key->options.written || (only_overrides && entry.value.position().line > 0)) return false;
+    warnings.push_back(
+        {entry.value.position(),
+         fmt::format("`{}` is ignored: RIB files and tables of materials must not name folders "
+                     "to write into; --set can",
+                     entry.key)});
+    return true;
+  });
+}
+
+/// Adds the materials of the RIB files that a scene names as archives.
+void add_foreign_materials(Value& document, const RibUse& use, std::vector<Problem>& warnings) {
+  const Value* render = document.find("render");
+  const Value* memory = render ? render->find("memory") : nullptr;
+  const Value* materials = document.find("materials");
+  const size_t own = materials ? materials->entries().size() : 0;
+  add_archive_materials(document, use, memory_of(memory ? memory->text() : ""), warnings);
+  Value* all = document.find("materials");
+  if (!all) return;
+  Value added = Value::map(all->position(), {});
+  auto& entries = all->entries();
+  const auto first = entries.begin() + static_cast<std::ptrdiff_t>(std::min(own, entries.size()));
+  std::move(first, entries.end(), std::back_inserter(added.entries()));
+  entries.erase(first, entries.end());
+  SceneDescription::schema()
+      .find("materials")
+      ->visit_blocks(added, [&](Value& block, const SchemaInfo& schema) {
+        drop_folders(block, schema, false, warnings);
+      });
+  std::move(added.entries().begin(), added.entries().end(), std::back_inserter(entries));
+}
+
 /// A scene file, or a RIB file as a scene, with the overrides.
 std::optional<Value> any_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                   const RibUse& use, Problems& problems, RenamedKeys& renamed) {
   if (!is_rib(path)) {
     std::optional<Value> document = load_document(path, overrides, problems, &renamed);
-    const Value* render = document ? document->find("render") : nullptr;
-    const Value* memory = render ? render->find("memory") : nullptr;
-    if (document)
-      add_archive_materials(*document, use, memory_of(memory ? memory->text() : ""), renamed.warnings);
+    if (document && use.overrides)
+      drop_folders(*document, SceneDescription::schema(), true, renamed.warnings);
+    if (document) add_foreign_materials(*document, use, renamed.warnings);
     return document;
   }
   std::string memory;
@@ -226,6 +269,7 @@ std::optional<Value> any_document(const std::filesystem::path& path, const std::
   }
   Value document = rib_document(path, use, memory_of(memory), renamed.warnings);
   rename_old_keys(document, renamed, problems);
+  drop_folders(document, SceneDescription::schema(), false, renamed.warnings);
   DocumentLimits limits;
   for (const Override& override : overrides) {
     apply_override(override, document, limits, problems, &renamed);

@@ -51,7 +51,8 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
                    "determines them. You may delete files at any time, but must not overwrite them while a "
                    "run reads them. Pelage ignores files of other users, except in folders that the "
                    "environment variable PELAGE_SHARED_CACHES names",
-           .default_text = "`cache` in the current folder"});
+           .default_text = "`cache` in the current folder",
+           .written = true});
     s.key("freeze", &GroomCacheParams::freeze,
           {.help = "Last frozen operator. It and the operators before it run once, and the result is stored "
                    "with 16 bits per number. If several operators have this name, the last one counts",

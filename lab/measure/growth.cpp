@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/file_name.h"
 #include "lab/measure/caches.h"
 #include "lab/measure/experiments.h"
 #include "lab/measure/growth_edits.h"
@@ -44,9 +45,10 @@ struct GroomVariants {
 GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams>::Item& item,
                           const MeasureSetup& setup) {
   const std::string& name = item.name;
+  const std::string file = file_name_of({name});
   GroomVariants v{name,
-                  std::filesystem::absolute(setup.folder) / "caches" / ("growth-" + name),
-                  setup.folder / (name + "-warm.hair"),
+                  std::filesystem::absolute(setup.folder) / "caches" / ("growth-" + file),
+                  setup.folder / (file + "-warm.hair"),
                   {},
                   &item.value,
                   {}};
@@ -57,7 +59,7 @@ GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams
       common.insert(common.end(), {"--set", "grooms." + other.name + ".cache=null"});
   }
   const auto add = [&](const std::string& way, const std::string& cache) -> Variant& {
-    Variant made{name + "-" + way, name + ", " + way, "grow", common};
+    Variant made{file + "-" + way, name + ", " + way, "grow", common};
     if (!cache.empty())
       made.arguments.insert(made.arguments.end(), {"--set", "grooms." + name + ".cache" + cache});
     return v.variants.emplace_back(std::move(made));

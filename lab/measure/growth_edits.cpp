@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file_name.h"
 #include "groom/cache/cache_report.h"
 #include "groom/cache/frozen_coat.h"
 #include "lab/measure/caches.h"
@@ -53,7 +54,7 @@ std::vector<GrowthEdit> growth_edits(const std::string& groom, const GroomParams
   for (size_t i = 0; i < frozen_count(params); ++i) {
     const std::string& op = params.operators.items[i].name;
     Variant variant = common;
-    variant.id = fmt::format("{}-edit-{}-{}", groom, i + 1, op);
+    variant.id = fmt::format("{}-edit-{}-{}", file_name_of({groom}), i + 1, op);
     variant.title = fmt::format("{}, {} edited", groom, op);
     variant.prepare = [=] { remove_cached_from(i, groom, params, cache); };
     edits.push_back({op, i, std::move(variant)});

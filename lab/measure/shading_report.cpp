@@ -113,7 +113,9 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
     if (run.reuse) pictures.push_back(run.other);
     auto difference = scaled_difference_of_files(pictures, all.references, kFactor,
                                                  run.outcome.variant.title + ", times ten.");
-    if (difference) write_file(folder / fmt::format("difference-{}.png", curve.id), png_bytes(*difference));
+    if (difference)
+      write_file(folder / fmt::format("difference-{}.png", curve.id), png_bytes(*difference),
+                 Links::kReplace);
     add(std::move(difference));
   }
   return section;

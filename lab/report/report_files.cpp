@@ -8,12 +8,14 @@
 
 namespace pelage {
 
-void claim_report_folder(const std::filesystem::path& folder) { write_file(folder / "report.json", "{}\n"); }
+void claim_report_folder(const std::filesystem::path& folder) {
+  write_file(folder / "report.json", "{}\n", Links::kReplace);
+}
 
 void write_report(const std::filesystem::path& folder, const Report& report) {
-  write_file(folder / "report.json", report_json(report));
-  write_file(folder / "report.csv", csv_text(report.data));
-  write_file(folder / "report.html", report_page(report));
+  write_file(folder / "report.json", report_json(report), Links::kReplace);
+  write_file(folder / "report.csv", csv_text(report.data), Links::kReplace);
+  write_file(folder / "report.html", report_page(report), Links::kReplace);
 }
 
 }  // namespace pelage

@@ -55,8 +55,6 @@ class FrameChunks final : public ChunkGrower {
   /// if that is faster: if the strategy of the scene measures constant boxes, all chunks fit `render.memory`
   /// together, and no boxes are stored beside caches. Returns whether this is so.
   bool bound_quickly(const Job& job);
-  /// From now on, bounds() computes the boxes with the strategy `conservative`.
-  void bound_coarsely() { bounds_ = BoundingStrategy::kConservative; }
   /// Returns a hash of everything on which the grown leaf and its boxes depend, except for its numbers
   /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
   /// Empty when unknown.

@@ -121,7 +121,8 @@ const Schema<YanParams>& YanParams::schema() {
     add_medulla_keys(s);
     s.key("tables", &P::tables,
           {.help = "Folder that stores the tables between runs. Without it each run makes them anew",
-           .default_text = "none"});
+           .default_text = "none",
+           .written = true});
     return s;
   }();
   return table;

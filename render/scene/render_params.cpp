@@ -46,7 +46,8 @@ const Schema<BvhParams>& BvhParams::schema() {
                    "ray in a later run needs a chunk, "
                    "Pelage reads it from such a file instead of growing it. The limit `memory` still "
                    "applies. Works only with `accel: fur`, `curves: flat` and opaque coats",
-           .default_text = "none"});
+           .default_text = "none",
+           .written = true});
     return s;
   }();
   return table;

@@ -13,6 +13,7 @@ class RibPrograms;
 struct RibUse {
   std::filesystem::path materials;        ///< table of materials (RibMaterialTable); empty: none
   std::shared_ptr<RibPrograms> programs;  ///< runs programs of procedurals; null: they are skipped
+  bool overrides = false;  ///< whether the overrides of the scene come from a RIB file, not from the user
 };
 
 }  // namespace pelage

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file.h"
 #include "base/memory_budget.h"
 #include "base/progress.h"
 #include "rib/syntax/rib_curves.h"
@@ -65,12 +66,13 @@ void write_procedural(RibWriter& rib, const CoatTree& tree, const HairArguments&
 void write_archives(RibWriter& rib, const CoatTree& tree, std::span<const float> times,
                     const std::filesystem::path& base, const std::filesystem::path& folder_of,
                     const RibFormat& format, const Job& job) {
+  make_own_folder(base.parent_path());
   std::vector<Box3f> boxes;
   for (size_t leaf = 0; leaf < tree.all().end; ++leaf) boxes.push_back(tree.box({leaf, leaf + 1}, job));
   for_each_leaf(tree, job, [&](size_t leaf, const Strands& strands) {
     const std::filesystem::path path =
         base.string() + fmt::format(".{}.rib{}", leaf, format.gzip ? ".gz" : "");
-    RibFile file(path, format);
+    RibFile file(path, format, Links::kReplace);
     write_curves(file.writer(), strands, times);
     file.commit();
     rib.request("Procedural").text("DelayedReadArchive");

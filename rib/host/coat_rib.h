@@ -30,7 +30,8 @@ void write_procedural(RibWriter& rib, const CoatTree& tree, const HairArguments&
 
 /// Writes a file for each leaf that has strands, and a Procedural "DelayedReadArchive" with the exact box of
 /// the leaf for each. The files are `base` with the number of the leaf and ".rib" or ".rib.gz" appended.
-/// Their names in the stream are relative to the folder of `folder_of`.
+/// Their names in the stream are relative to the folder of `folder_of`. No symbolic link is followed in the
+/// folder of the files: a link with the name of a file is replaced, and a folder that is a link is refused.
 void write_archives(RibWriter& rib, const CoatTree& tree, std::span<const float> times,
                     const std::filesystem::path& base, const std::filesystem::path& folder_of,
                     const RibFormat& format, const Job& job);

@@ -14,7 +14,9 @@ constexpr size_t kFramesKept = 4;
 constexpr size_t kTreesKept = 64;  // of one frame
 
 SceneDescription load(const HairArguments& arguments) {
-  SceneDescription scene = load_scene(arguments.scene, arguments.overrides);
+  RibUse use;
+  use.overrides = true;
+  SceneDescription scene = load_scene(arguments.scene, arguments.overrides, use);
   scene.lights.items.clear();  // the host has its own
   return scene;
 }

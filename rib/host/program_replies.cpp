@@ -3,9 +3,11 @@
 
 #include <charconv>
 #include <new>
+#include <streambuf>
 
 #include <fmt/format.h>
 
+#include "base/nearest_name.h"
 #include "rib/host/coat_rib.h"
 #include "rib/syntax/rib_curves.h"
 
@@ -37,10 +39,25 @@ std::string one_line(const std::exception& error) {
   const auto* ours = dynamic_cast<const Error*>(&error);
   if (ours && ours->problems().size() > 1)
     text = fmt::format("{} (and {} more)", text.substr(0, text.find('\n')), ours->problems().size() - 1);
+  constexpr size_t kLongest = 1000;
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   for (char& c : text) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   return text;
+}
+
+bool read_program_request(std::istream& input, std::string& request) {
+  request.clear();
+  std::streambuf& bytes = *input.rdbuf();
+  using Traits = std::istream::traits_type;
+  bool any = false;
+  for (auto c = bytes.sbumpc(); !Traits::eq_int_type(c, Traits::eof()); c = bytes.sbumpc()) {
+    any = true;
+    if (c == '\n') break;
+    if (request.size() <= kMaxProgramRequest) request += Traits::to_char_type(c);
+  }
+  return any;
 }
 
 std::string ProgramReplies::reply(std::string_view request, RibSink& sink) {
@@ -49,12 +66,13 @@ std::string ProgramReplies::reply(std::string_view request, RibSink& sink) {
   std::string error;
   try {
     while (request.ends_with('\n') || request.ends_with('\r')) request.remove_suffix(1);
+    if (request.size() > kMaxProgramRequest)
+      throw Error(ErrorKind::kArguments, "procedural: a request has more than 1 MiB");
     float detail = 0;
     const char* end = request.data() + request.size();
     const auto [rest, code] = std::from_chars(request.data(), end, detail);
     if (code == std::errc::invalid_argument)
-      throw Error(ErrorKind::kArguments,
-                  fmt::format("procedural: expected 'detail arguments', got '{}'", request));
+      throw Error(ErrorKind::kArguments, "procedural: expected 'detail arguments', got " + quote(request));
     if (code == std::errc::result_out_of_range) detail = 1e38f;
     RibOutput output(rib, command_);
     subdivide_request(sessions_, {rest, static_cast<size_t>(end - rest)}, detail, output);

@@ -3,8 +3,8 @@
 
 namespace pelage {
 
-RibFile::RibFile(const std::filesystem::path& path, const RibFormat& format)
-    : file_(path),
+RibFile::RibFile(const std::filesystem::path& path, const RibFormat& format, Links links)
+    : file_(path, links),
       gzip_(format.gzip ? std::optional<GzipSink>(std::in_place, file_) : std::nullopt),
       writer_(gzip_ ? static_cast<RibSink&>(*gzip_) : file_, format.encoding) {
   writer_.comment("#RenderMan RIB");

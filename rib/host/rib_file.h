@@ -17,7 +17,7 @@ struct RibFormat {
 /// A RIB file that appears completely or not at all (law 6). Every member throws Error (kFailed) on failure.
 class RibFile {
  public:
-  RibFile(const std::filesystem::path& path, const RibFormat& format);
+  RibFile(const std::filesystem::path& path, const RibFormat& format, Links links = Links::kFollow);
   RibWriter& writer() { return writer_; }
   /// Ends the file and moves it to its path.
   void commit();
@@ -25,7 +25,7 @@ class RibFile {
  private:
   class FileSink final : public RibSink {
    public:
-    explicit FileSink(const std::filesystem::path& path) : file(path) {}
+    FileSink(const std::filesystem::path& path, Links links) : file(path, links) {}
     void write(std::string_view bytes) override { file.write(bytes); }
     AtomicFile file;
   };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file_name.h"
 #include "base/version.h"
 #include "rib/host/camera_rib.h"
 #include "rib/host/shading_rib.h"
@@ -24,6 +25,15 @@ Value document_of(const SceneRibSource& source) {
   if (!document) throw Error(ErrorKind::kInput, source.path.string() + ": changed while it was read");
   make_paths_absolute(*document, SceneDescription::schema());
   return std::move(*document);
+}
+
+/// The name of a RIB file without its ending.
+std::string stem_of(const std::filesystem::path& path) {
+  std::string name = path.filename().string();
+  for (const std::string_view ending : {".gz", ".rib"}) {
+    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  }
+  return name;
 }
 
 std::string absolute_text(const std::filesystem::path& path) {
@@ -93,14 +103,14 @@ class SceneRibWriter {
     const FrameParts parts = pose_frame(source_.scene, source_.assets, frame, job_);
     rib.request("FrameBegin").integer(frame);
     write_options(rib);
-    std::string picture = path.filename().string();
-    picture = picture.substr(0, picture.find(".rib"));
+    std::string picture = stem_of(path);
     if (!has_frame_pattern(output_.filename().string()) && source_.scene.frames.frames.size() > 1)
       picture += fmt::format(".{:04}", frame);
     write_camera(rib, source_.scene, frame, content_of(parts), picture + ".exr");
     rib.request("WorldBegin");
     write_lights(rib, source_.scene, document_, frame);
     for (const FrameSkin& skin : parts.skins) write_skin_part(rib, skin);
+    coats_written_.clear();
     for (const FrameCoat& coat : parts.coats) {
       job_.check_stop();
       write_coat(rib, coat, frame, path);
@@ -139,7 +149,7 @@ class SceneRibWriter {
     rib.request("AttributeEnd");
   }
 
-  void write_coat(RibWriter& rib, const FrameCoat& coat, int frame, const std::filesystem::path& path) const {
+  void write_coat(RibWriter& rib, const FrameCoat& coat, int frame, const std::filesystem::path& path) {
     const bool procedural = options_.coats == RibCoats::kProcedurals;
     const CoatTree tree(coat, procedural || options_.lod ? coat.lod : std::nullopt);
     const std::vector<float> times = motion_times(source_.scene.camera, coat.skin->motion_keys());
@@ -157,10 +167,12 @@ class SceneRibWriter {
     } else if (options_.coats == RibCoats::kExpanded) {
       write_expanded(rib, tree, times, job_);
     } else {
-      const std::string stem = path.filename().string();
-      const std::filesystem::path folder = path.parent_path() / (stem.substr(0, stem.find(".rib")) + "_hair");
-      const std::string name = fmt::format("{}.{}.{}", coat.character, coat.groom, frame);
-      write_archives(rib, tree, times, folder / name, path.parent_path(), options_.format, job_);
+      const std::filesystem::path folder = path.parent_path() / (stem_of(path) + "_hair");
+      std::vector<std::string> words{coat.character, coat.groom, std::to_string(frame)};
+      // A character may have the name of an animal, and a coat on two of its parts.
+      if (const int twin = ++coats_written_[words]; twin > 1) words.push_back(std::to_string(twin));
+      write_archives(rib, tree, times, folder / file_name_of(words), path.parent_path(), options_.format,
+                     job_);
     }
     rib.request("AttributeEnd");
   }
@@ -172,6 +184,7 @@ class SceneRibWriter {
   const Value document_;
   TextureLibrary textures_;
   std::map<std::pair<std::string, std::string>, Rgb> skin_colors_;  // by skin and material
+  std::map<std::vector<std::string>, int> coats_written_;           // in this frame, by their names
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/temporary_folder.h"
@@ -47,6 +48,15 @@ TEST(ReadFile, RefusesWhatIsNoRegularFileWithItsPathAndTheReason) {
 
   const Error is_folder = error_of([&] { read_file(folder.path()); });
   EXPECT_NE(std::string(is_folder.what()).find("folder"), std::string::npos) << is_folder.what();
+}
+
+TEST(ReadFile, FollowsLinksUnlessToldNotTo) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "target") << "text";
+  std::filesystem::create_symlink("target", folder.path() / "link");
+  EXPECT_EQ(read_file(folder.path() / "link"), "text");
+  EXPECT_EQ(read_file(folder.path() / "target", 4, OpenFile::Links::kRefuse), "text");
+  EXPECT_THROW(read_file(folder.path() / "link", 4, OpenFile::Links::kRefuse), Error);
 }
 
 TEST(ReadFile, DoesNotHangOnAPipeWithoutAWriter) {
@@ -156,6 +166,30 @@ TEST(AtomicFile, ReplacesALinkWhereItIsToldTo) {
   EXPECT_EQ(read_file(target), "precious");
 }
 
+TEST(AtomicFile, FollowsNoLinkOfAnotherUser) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a link away";
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "target", link = folder.path() / "link";
+  std::ofstream(target) << "precious";
+  std::filesystem::create_symlink(target, link);
+  ASSERT_EQ(::lchown(link.c_str(), 12345, 12345), 0);
+  EXPECT_NE(std::string(error_of([&] { AtomicFile{link}; }).what()).find("of another user"),
+            std::string::npos);
+  write_file(link, "new", Links::kReplace);
+  EXPECT_EQ(read_file(target), "precious");
+}
+
+TEST(MakeOwnFolder, RefusesALink) {
+  const TemporaryFolder folder;
+  make_own_folder(folder.path() / "a" / "b");
+  make_own_folder(folder.path() / "a" / "b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a" / "b"));
+  std::filesystem::create_symlink("a", folder.path() / "link");
+  EXPECT_EQ(error_of([&] { make_own_folder(folder.path() / "link"); }).kind(), ErrorKind::kFailed);
+  std::ofstream(folder.path() / "file") << "x";
+  EXPECT_EQ(error_of([&] { make_own_folder(folder.path() / "file"); }).kind(), ErrorKind::kFailed);
+}
+
 TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "out.exr", link = folder.path() / "link";
@@ -201,6 +235,9 @@ TEST(SameFile, BySpellingAndByLinkAndBeforeItIsThere) {
   EXPECT_TRUE(same_file(none, folder.path() / "x" / ".." / "none"));
   EXPECT_TRUE(same_file("not there", "./not there"));
   EXPECT_FALSE(same_file("not there", "not here"));
+  std::filesystem::create_symlink("circle", folder.path() / "circle");
+  EXPECT_FALSE(same_file(a, folder.path() / "circle"));
+  EXPECT_FALSE(same_file(folder.path() / "circle", folder.path() / "circle"));
 }
 
 TEST(AtomicFile, AppearsWholeAtCommitAndReplacesWhatWasThere) {

@@ -74,6 +74,24 @@ class Checkpoints(ProgramTest):
         self.assertEqual([p.name for p in (self.path / "ck").iterdir()], ["frame-0001.checkpoint"])
         self.assertIn("a.exr  is finished, skipped", self.end(self.start_render(*SMALL, "--resume")))
 
+    def test_a_run_with_nothing_to_do_keeps_the_statistics(self):
+        arguments = ["-o", "a.exr", "--checkpoint", "ck", "--resume", "--stats", "s.json"]
+        self.render(*arguments)
+        before = (self.path / "s.json").read_bytes()
+        self.render(*arguments)
+        self.assertEqual((self.path / "s.json").read_bytes(), before)
+        (self.path / "s.json").unlink()
+        self.render(*arguments)
+        self.assertTrue((self.path / "s.json").exists())
+
+    def test_a_folder_that_cannot_be_read(self):
+        (self.path / "circle").symlink_to("circle")
+        (self.path / "file").write_text("")
+        for name in "circle", "file":
+            err = self.render("-o", "a.exr", "--checkpoint", name, "--resume", code=3)[1]
+            self.assertRegex(err, f"^{name}: cannot read: ")
+            self.assertEqual(err.count("\n"), 1)
+
     def test_sigterm_leaves_a_checkpoint_and_no_picture(self):
         process = self.start_render(*ENDLESS, "--every", "0.1s")
         self.after_checkpoint(process)

@@ -3,7 +3,9 @@
 tests/farm/slurm_test.py does the same with a real Slurm. Run: farm_submit_test.py PROGRAM"""
 import json
 import os
+import signal
 import sys
+import time
 import unittest
 
 from program_scene import ProgramTest, exr_pixels
@@ -184,6 +186,121 @@ for job; do sed -i "/^$job /d" "$FAKE/queue"; done
     def test_a_shot_that_slurm_refuses(self):
         self.fake("sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition' >&2\nexit 1\n")
         self.assertIn("invalid partition", self.farm("submit", "scene.yaml", *SHOT, code=1)[1])
+
+    def test_another_shot_in_the_same_folder_is_refused(self):
+        self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1")
+        before = {name: (self.path / "farm" / name).read_bytes() for name in ("plan.json", "jobs")}
+        scene = (self.path / "scene.yaml").read_text()
+        for changed, says in ([*SHOT, "--regions", "2x1", "--set", "render.samples=99"], "`render.samples`"), (
+                ["-o", "a b.%04d.exr", "--frames", "1", *SMALL, "--regions", "2x1"], "frames (1,2 before, 1 now)"), (
+                [*SHOT, "--regions", "2x2"], "regions (2x1 of 64 x 48 pixels before, 2x2 of 64 x 48 pixels now)"), (
+                ["-o", "b.%04d.exr", *SHOT[2:], "--regions", "2x1"], "output ("):
+            err = self.farm("submit", "scene.yaml", *changed, code=2)[1]
+            self.assertIn("farm: the folder has another shot, because these differ: " + says, err)
+            self.assertEqual(err.count("\n"), 1)
+        (self.path / "scene.yaml").write_text(scene.replace("color: 0.4", "color: 0.5"))
+        self.assertIn("differ: `materials.hide", self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1", code=2)[1])
+        (self.path / "scene.yaml").write_text(scene)
+        self.assertEqual({name: (self.path / "farm" / name).read_bytes() for name in before}, before)
+        # What changes no pixel may change.
+        self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1", "--every", "7s", "--memory", "1G")
+        states = self.state()
+        self.assertEqual({t["state"] for t in states.values()}, {"done"})
+        self.assertEqual({t["starts"] for t in states.values()}, {1})  # finished tasks were only looked at
+        self.assertGreater(states["render-0001-r0c0"]["cpu_s"], 0)
+        self.assertNotIn("Failures and restarts", (self.path / "farm/index.html").read_text())
+
+    def test_ctrl_c_leaves_no_job_that_no_file_knows(self):
+        # Slurm accepts a job at once, and answers late.
+        self.fake("sbatch", """#!/bin/bash
+number=$(($(cat "$FAKE/number" 2>/dev/null || echo 100) + 1)); echo $number > "$FAKE/number"
+echo "$number 1 PENDING" >> "$FAKE/queue"
+while [ -e "$FAKE/busy" ]; do sleep 0.01; done
+echo "$number"
+""")
+        self.fake("scancel", '#!/bin/bash\nfor job; do sed -i "/^$job /d" "$FAKE/queue"; done\n')
+        (self.bin / "busy").touch()
+        process = self.start("farm", "submit", "scene.yaml", *SHOT, "--regions", "2x1")
+        while not (self.bin / "queue").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertIn("stopping after the present job", process.stderr.readline() + process.stderr.readline())
+        (self.bin / "busy").unlink()
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, err)
+        self.assertIn("stopped; 1 submitted job cancelled", err)
+        self.assertEqual((self.path / "farm/jobs").read_text(), "101 render-0001\n")
+        self.assertEqual((self.bin / "queue").read_text(), "")
+        self.assertEqual((self.bin / "number").read_text(), "101\n")
+
+    # A Slurm whose jobs never run.
+    IDLE = "#!/bin/sh\necho 101\n"
+
+    def test_a_job_that_the_submission_did_not_note_notes_itself(self):
+        self.fake("sbatch", self.IDLE)
+        self.farm("submit", "scene.yaml", *SHOT)
+        (self.path / "farm/tasks/render-part0").write_text("render-0001 true\n")
+        os.environ.update(SLURM_ARRAY_TASK_ID="1", SLURM_ARRAY_JOB_ID="777")
+        self.addCleanup(os.environ.pop, "SLURM_ARRAY_TASK_ID")
+        self.addCleanup(os.environ.pop, "SLURM_ARRAY_JOB_ID")
+        for _ in range(2):
+            os.spawnlp(os.P_WAIT, "bash", "bash", str(self.path / "farm/task.sh"), str(self.path / "farm/tasks/render-part0"))
+        self.assertEqual((self.path / "farm/jobs").read_text(), "101 render-part0\n777 render-part0\n")
+
+    def test_no_link_is_followed_in_the_folder_of_a_shot(self):
+        self.fake("sbatch", self.IDLE)
+        self.farm("submit", "scene.yaml", *SHOT)
+        precious = self.path / "precious"
+        precious.write_text("precious")
+        for name in "index.html", "plan.json", "task.sh", "submit.sh", "submit.log", "jobs", "state/render-0001", "stats/0001.json":
+            place = self.path / "farm" / name
+            kept = place.read_bytes() if place.exists() else None
+            place.unlink(missing_ok=True)
+            place.symlink_to(precious)
+            self.run_pelage("farm", "status", "farm", code=3 if name == "plan.json" else 0)
+            if place.is_symlink():
+                self.farm("submit", "scene.yaml", *SHOT, code=0 if name in ("task.sh", "submit.sh") else 3)
+            self.assertEqual(precious.read_text(), "precious", name)
+            place.unlink()
+            if kept is not None:
+                place.write_bytes(kept)
+        for name in "state", "logs", "tasks", "thumbs", "pieces":
+            place, kept = self.path / "farm" / name, self.path / "kept"
+            (self.path / "away").mkdir()
+            place.rename(kept)
+            place.symlink_to(self.path / "away")
+            self.farm("status", "farm")
+            if name != "thumbs":
+                self.assertIn("is a symbolic link", self.farm("submit", "scene.yaml", *SHOT, code=3)[1])
+            self.assertEqual(list((self.path / "away").iterdir()), [], name)
+            (self.path / "away").rmdir()
+            place.unlink()
+            kept.rename(place)
+
+    def test_a_terminal_obeys_no_log(self):
+        self.fake("sbatch", self.IDLE)
+        self.farm("submit", "scene.yaml", *SHOT)
+        (self.path / "farm/state/render-0001").write_bytes(b"5 start 0 n\x1b[2J 7\n9 end 3\n")
+        (self.path / "farm/logs/render-part0-1.txt").write_bytes(b"\x1b]0;title\x07 \xff bad\n")
+        out = self.run_pelage("farm", "status", "farm", encoding="latin-1")[0]
+        self.assertIn("\\x1b]0;title\\x07", out)
+        self.assertIn("n\\x1b[2J", out)
+        self.assertNotIn("\x1b", out)
+        (self.path / "farm/state/render-0001").write_bytes(b"5 start 0 n\xff 7\n9 end 3\n")
+        self.assertEqual(self.state()["render-0001"]["state"], "failed")
+
+    def test_programs_of_slurm_that_print_too_much(self):
+        self.fake("sbatch", self.IDLE)
+        self.farm("submit", "scene.yaml", *SHOT)
+        self.fake("squeue", '#!/bin/sh\nyes | head -c 30000000\necho 101 1 PENDING\n')
+        self.assertIn("1 job cancelled", self.farm("cancel", "farm")[0])
+        self.fake("squeue", "#!/bin/sh\n")
+        self.fake("sbatch", "#!/bin/sh\nyes no | head -c 30000000 | tr '\\n' ' ' >&2\nexit 1\n")
+        self.assertLess(len(self.farm("submit", "scene.yaml", *SHOT, code=1)[1]), 1000)
+        self.fake("sbatch", "#!/bin/sh\nyes | head -c 3000000\n")
+        self.assertIn("sbatch printed no number of a job", self.farm("submit", "scene.yaml", *SHOT, code=1)[1])
+        self.assertLess((self.path / "farm/jobs").stat().st_size, 1000)
 
     def test_mistakes(self):
         self.assertIn("did you mean 'status'?", self.farm("statsu", "farm", code=2)[1])

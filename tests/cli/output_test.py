@@ -55,6 +55,21 @@ class Output(ProgramTest):
             self.assertIn("guides.hair", err)
         self.assertEqual({name: (self.path / name).read_bytes() for name in self.names()}, before)
 
+    def test_inputs_that_are_loops_of_links_cannot_be_read(self):
+        scene, text = self.path / "scene.yaml", (self.path / "scene.yaml").read_text()
+        for kind, old, new in ("mesh", "mesh: cube.obj", "mesh: loop.obj"), (
+                "strands", "strands: 400\n    points: 5\n    operators: [{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.005}}]",
+                "strands_file: loop.hair"), ("map", "color: 0.4", "color: {map: loop.png}"), (
+                "environment", "radiance: 0.3", "file: loop.exr"), ("RIB", "lights:", "archives: {a: {rib: loop.rib}}\nlights:"), (
+                "include", "pelage: 1", "pelage: 1\ninclude: loop.yaml"):
+            self.assertIn(old, text)
+            scene.write_text(text.replace(old, new))
+            name = new[new.index("loop."):].split()[0].rstrip("}")
+            if not (self.path / name).is_symlink():
+                (self.path / name).symlink_to(name)
+            err = self.render("-o", "a.exr", code=3)[1]
+            self.assertRegex(err, rf"^scene.yaml:\d+:\d+: .*{name}: cannot read: [^\n]*\n$", kind)
+
     def test_other_commands_refuse_it_too(self):
         self.render("-o", "a.exr")
         before = (self.path / "a.exr").read_bytes()

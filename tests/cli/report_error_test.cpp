@@ -22,6 +22,11 @@ TEST(ReportError, ALineEach) {
             "a.yaml:2:3: one\n--set a: two\npelage: error: three\n");
 }
 
+TEST(ReportError, ATerminalObeysNoMessage) {
+  EXPECT_EQ(error_text(Error(ErrorKind::kInput, {"a\x1b[2J", 1, 1}, "got '\x1b]0;x\x07'")),
+            "a\\x1b[2J:1:1: got '\\x1b]0;x\\x07'\n");
+}
+
 TEST(ReportError, VeryManyAreCounted) {
   const std::string text =
       error_text(Error(ErrorKind::kInput, std::vector<Problem>(1000, {{"a", 1, 1}, "bad"})));

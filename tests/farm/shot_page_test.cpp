@@ -20,7 +20,9 @@ ShotState shot(const std::filesystem::path& folder) {
   request.width = request.height = 64;
   request.columns = 2;
   request.memory = 1000;
-  ShotState state{{folder, 2, make_farm_plan(request)}, {}, int64_t{300} << 20};
+  ShotState state;
+  state.plan = {folder, 2, make_farm_plan(request)};
+  state.plan.estimate.render_bytes = uint64_t{300} << 20;
   state.tasks.resize(state.plan.tasks.size());
   for (TaskState& task : state.tasks) {
     task.stage = TaskStage::kDone;
@@ -109,6 +111,42 @@ TEST(ShotPage, DamagedPicturesHaveNoThumbnail) {
   grey.channels.push_back({"Y", ChannelType::kHalf, std::vector<float>(16), {}});
   write_exr(folder.path() / "grey.exr", grey);
   EXPECT_THROW(write_thumbnail(folder.path() / "grey.exr", folder.path() / "a.png", 10), Error);
+}
+
+TEST(ShotPage, ControlCharactersOfALogAreShown) {
+  const TemporaryFolder folder;
+  ShotState state = shot(folder.path());
+  state.tasks[1].stage = TaskStage::kFailed;
+  state.tasks[1].host = "n\x1b[2J";
+  write_file(folder.path() / "farm" / "logs" / "x.txt", "red: \x1b[31m<b>");
+  const std::string page = shot_page(state, folder.path() / "farm", {}, 0);
+  EXPECT_NE(page.find("red: \\x1b[31m&lt;b&gt;"), std::string::npos) << page;
+  EXPECT_NE(page.find("n\\x1b[2J"), std::string::npos) << page;
+}
+
+TEST(ShotPage, FollowsNoLinksAndShowsNoPicturesOfOthers) {
+  const TemporaryFolder folder;
+  ShotState state = shot(folder.path());
+  const auto picture = folder.path() / "shot.0007.exr", elsewhere = folder.path() / "private.exr",
+             farm = folder.path() / "farm", png = folder.path() / "precious.png", log = folder.path() / "log";
+  write_picture(elsewhere, 0.5f);
+  write_file(png, "precious");
+  std::filesystem::create_directories(farm / "thumbs");
+  std::filesystem::create_symlink(elsewhere, picture);
+  EXPECT_TRUE(update_thumbnails(state, farm).empty());
+  std::filesystem::remove(picture);
+  write_picture(picture, 0.5f);
+  std::filesystem::create_symlink(png, farm / "thumbs" / "0007.png");
+  std::filesystem::last_write_time(picture, std::filesystem::last_write_time(png) + std::chrono::seconds(5));
+  EXPECT_TRUE(update_thumbnails(state, farm).contains(7));
+  EXPECT_EQ(read_file(png), "precious");
+  EXPECT_FALSE(std::filesystem::is_symlink(farm / "thumbs" / "0007.png"));
+  state.owner = 12345;
+  EXPECT_TRUE(update_thumbnails(state, farm).empty());
+
+  write_file(log, "secret");
+  std::filesystem::create_symlink(log, farm / "log");
+  EXPECT_EQ(end_of_log(farm / "log"), "");
 }
 
 TEST(ShotPage, TheEndOfALogIsItsLastLines) {

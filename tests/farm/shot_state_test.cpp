@@ -21,7 +21,10 @@ FarmPlan plan(const std::filesystem::path& folder) {
   request.width = request.height = 64;
   request.columns = 2;
   request.memory = 1000;
-  return {folder, 2, make_farm_plan(request)};
+  FarmPlan plan{folder, 2, make_farm_plan(request), request.folder};
+  plan.estimate = {4096, 100, 7.5};
+  plan.inputs = {{"scene render.samples", "4"}, {"instructions", "AVX2"}};
+  return plan;
 }
 
 TEST(ShotState, APlanReadsBackAsItWasWritten) {
@@ -31,6 +34,41 @@ TEST(ShotState, APlanReadsBackAsItWasWritten) {
   EXPECT_EQ(plan_json(read), text);
   EXPECT_EQ(read.tasks[0].region, shot.tasks[0].region);
   EXPECT_EQ(read.threads, 2);
+  EXPECT_EQ(read.estimate.render_bytes, shot.estimate.render_bytes);
+  EXPECT_EQ(read.inputs, shot.inputs);
+}
+
+TEST(ShotState, APlanSaysWhatOtherQueuesNeed) {
+  const std::string text = plan_json(plan("/shows/rat"));
+  for (const char* part : {"\"exit_codes\": [\n      1,\n      129,\n      137,\n      143\n    ]",
+                           "\"max\": 9", "\"kind\": \"merge\"", "\"log\": \"farm/logs/render-0001-2.txt\"",
+                           "\"reserve\": 4096", "\"reserve\": 100", "\"cpu_s\": 7.5"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(ShotState, PlansOfOtherPicturesDifferInWhatTheyName) {
+  const FarmPlan shot = plan("/shows/rat");
+  FarmPlan same = shot;
+  same.inputs["instructions"] = "AVX512";
+  same.threads = 7;
+  same.tasks[0].command.push_back("--quiet");
+  EXPECT_EQ(plan_differences(shot, same), "");
+
+  FarmRequest request;
+  request.frames = {1, 2, 3, 4};
+  request.output = "other.%04d.exr";
+  request.width = request.height = 64;
+  const FarmPlan longer{"/shows/rat", 2, make_farm_plan(request)};
+  EXPECT_EQ(plan_differences(shot, longer),
+            "frames (1,2 before, 1-4 now), regions (2x1 of 64 x 64 pixels before, none now)");
+  request.frames = {1, 2};
+  request.columns = 2;
+  const FarmPlan renamed{"/shows/rat", 2, make_farm_plan(request)};
+  EXPECT_EQ(plan_differences(shot, renamed),
+            "output (/shows/rat/shot.0001.exr before, /shows/rat/other.0001.exr now)");
+  FarmPlan changed = shot;
+  changed.inputs["scene render.samples"] = "99";
+  EXPECT_EQ(plan_differences(shot, changed), "`render.samples`");
 }
 
 TEST(ShotState, DamagedPlansAreRefusedByName) {
@@ -75,6 +113,19 @@ TEST(ShotState, EventsTellWhatHasHappened) {
   EXPECT_EQ(read_events("100 start 0 n 7\n150 end 143\n150 cancelled\n", 500).stage, TaskStage::kCancelled);
 }
 
+TEST(ShotState, AFinishedTaskThatIsLookedAtAgainIsNoRestart) {
+  const std::string done = "100 start 0 node1 7\n150 end 0\n";
+  const TaskState looked = read_events(done + "300 start 0 node2 8\n301 end 0\n", 500);
+  EXPECT_EQ(looked.stage, TaskStage::kDone);
+  EXPECT_EQ(looked.starts, 1);
+  EXPECT_EQ(looked.host, "node1");
+  // Its picture was lost, say.
+  const TaskState failed = read_events(done + "300 start 0 node2 8\n301 end 3\n", 500);
+  EXPECT_EQ(failed.stage, TaskStage::kFailed);
+  EXPECT_EQ(failed.starts, 2);
+  EXPECT_EQ(failed.host, "node2");
+}
+
 TEST(ShotState, TornLinesAreSkipped) {
   EXPECT_EQ(read_events("100 start 0 n 7\n150 en", 200).stage, TaskStage::kRunning);
   EXPECT_EQ(read_events("100 start 0 n 7\n150 end", 200).stage, TaskStage::kRunning);
@@ -99,7 +150,6 @@ TEST(ShotState, AQueueTellsLostAndCancelledTasks) {
   write_file(shot_folder / "state" / "render-0002-r0c0", "100 start 0 n 7\n");
   write_file(folder.path() / "farm" / "stats" / "0001-r0c1.json",
              R"({"cpu_s": 12.5, "peak_rss_bytes": 1048576})");
-  write_file(shot_folder / "reserved", "4096\n");
 
   const ShotState alone = read_shot_state(shot_folder, {}, 200);
   EXPECT_EQ(alone.tasks[0].stage, TaskStage::kRunning);
@@ -107,7 +157,6 @@ TEST(ShotState, AQueueTellsLostAndCancelledTasks) {
   EXPECT_EQ(alone.tasks[1].cpu_s, 12.5);
   EXPECT_EQ(alone.tasks[1].peak_bytes, 1048576);
   EXPECT_EQ(alone.tasks[1].log, "logs/render-0001-2.txt");
-  EXPECT_EQ(alone.reserved_bytes, 4096);
   EXPECT_EQ(alone.count(TaskStage::kWaiting), 3);
 
   const QueuedElements queue = parse_queue("13 1 RUNNING\n13 2 PENDING\n\nnonsense\n12 1 PENDING\n");

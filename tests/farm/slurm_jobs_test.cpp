@@ -19,14 +19,14 @@ FarmPlan plan(int frames, int columns, bool grows = false) {
   request.columns = columns;
   request.memory = 1000;
   request.grows = grows;
-  return {"/shows/my rat", 2, make_farm_plan(request)};
+  FarmPlan plan{"/shows/my rat", 2, make_farm_plan(request)};
+  plan.estimate = {uint64_t{700} << 20, uint64_t{100} << 20, 0};
+  return plan;
 }
 
 SlurmParams params() {
   SlurmParams params;
   params.folder = "/shows/my rat/farm";
-  params.render_bytes = uint64_t{700} << 20;
-  params.merge_bytes = uint64_t{100} << 20;
   params.options = {"--partition=fur", "--comment=two words"};
   return params;
 }
@@ -96,11 +96,12 @@ TEST(SlurmJobs, TheScriptSubmitsInOrderWithMemoryAndOptions) {
 }
 
 TEST(SlurmJobs, TheScriptOfATaskKnowsItsFolderAndItsRetries) {
-  SlurmParams few = params();
+  FarmPlan few = plan(1, 2);
   few.retries = 3;
-  const std::string script = task_script(few);
+  const std::string script = task_script(few, params());
   EXPECT_NE(script.find("folder='/shows/my rat/farm'\n"), std::string::npos);
   EXPECT_NE(script.find("-lt 3 ]"), std::string::npos);
+  EXPECT_NE(script.find("\n  1|129|137|143)\n"), std::string::npos);
 }
 
 }  // namespace

@@ -195,6 +195,20 @@ TEST_F(CheckpointTest, ADamagedFileIsNamedAndTheFrameStartsAnew) {
   EXPECT_NE(progress.warnings.find("other sizes"), std::string::npos);
 }
 
+TEST_F(CheckpointTest, AFolderThatCannotBeReadIsNoFolderWithoutCheckpoints) {
+  std::filesystem::create_symlink("circle", folder_.path() / "circle");
+  NoProgress none;
+  Checkpoint unreadable(folder_.path() / "circle" / "a.checkpoint", {}, {}, none);
+  try {
+    unreadable.find(picture());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(error.what()).find("a.checkpoint: cannot read: "), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(CheckpointTest, AFinishedFrameIsFinishedWhileItsPictureIsThere) {
   Impatient progress(kNever);
   Checkpoint first = checkpoint({}, progress);

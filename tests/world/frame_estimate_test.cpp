@@ -3,6 +3,9 @@
 // whole processes.
 #include "render/frame_estimate.h"
 
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -75,6 +78,30 @@ TEST_F(FrameEstimateTest, ChunksAreNearThoseOfTheRender) {
     EXPECT_LT(static_cast<double>(estimated.chunk_bytes), 1.5 * static_cast<double>(real.chunks)) << accel;
     EXPECT_TRUE(estimated.fits);
   }
+}
+
+/// Remembers the names of stages.
+class Stages final : public Progress {
+ public:
+  void begin(std::string_view stage, double) override { names.insert(std::string(stage)); }
+  void advance(double) override {}
+  void end() override {}
+  bool cancelled() const override { return false; }
+  std::set<std::string> names;
+};
+
+TEST_F(FrameEstimateTest, NoChunkIsBounded) {
+  const SceneDescription scene = load_scene(scene_.path("scene.yaml"));
+  MemoryLedger ledger;
+  Stages stages;
+  const Workers workers(2);
+  const Job job{workers, ledger, stages};
+  const std::unique_ptr<Assets> assets = load_assets(scene, job);
+  const World world = compose(scene, *assets, 1, job);
+  estimate_frame(world.scene, job, {});
+  EXPECT_FALSE(stages.names.contains("bound")) << "boxes of a crowd take most of the time of an estimate";
+  render(world, job);
+  EXPECT_TRUE(stages.names.contains("bound"));
 }
 
 TEST_F(FrameEstimateTest, ABudgetLimitsChunks) {

@@ -249,6 +249,39 @@ TEST_F(RibDocumentTest, BxdfsAndOpacity) {
   EXPECT_FLOAT_EQ(tuft.opacity.value({}), .5f);
 }
 
+TEST_F(RibDocumentTest, AFileNamesNoFolderToWriteInto) {
+  const std::string surfaces =
+      "Surface \"hair\" \"string pelage\" [\"{model: yan, preset: mouse, tables: /etc}\"]\n" + kHair +
+      "Surface \"other\" \"string model\" \"yan\" \"string preset\" \"mouse\" \"string tables\" \"/etc\"\n" +
+      kHair;
+  const std::string text =
+      "Option \"pelage\" \"string render\" [\"{bvh: {file: /etc}, bounces: 3}\"]\n"
+      "Projection \"perspective\" WorldBegin\n" +
+      surfaces + "WorldEnd";
+  const SceneDescription scene = shot(text);
+  EXPECT_TRUE(scene.render.bvh.file.empty());
+  EXPECT_EQ(scene.render.bounces, 3);
+  for (const char* name : {"hair", "other"})
+    EXPECT_TRUE(std::get<YanParams>(scene.materials.find(name)->value).tables.empty()) << name;
+  ASSERT_EQ(scene.warnings.size(), 3u);
+  EXPECT_NE(scene.warnings[0].message.find("`file` is ignored"), std::string::npos);
+  EXPECT_EQ(scene.warnings[0].position.line, 1);
+  const SceneDescription asked = shot(text, {{"render.bvh.file", "trees"}, {"materials.hair.tables", "t"}});
+  EXPECT_EQ(asked.render.bvh.file.path, "trees");
+  EXPECT_EQ(std::get<YanParams>(asked.materials.find("hair")->value).tables.path, "t");
+
+  // Files that a scene places as archives, whatever their names, may not either. Their scene may.
+  write(surfaces, "a.inc");
+  write_file(folder_.path() / "scene.yaml",
+             "pelage: 1\ncamera: {position: [0, 0, 5], look_at: [0, 0, 0]}\nrender: {bvh: {file: trees}}\n"
+             "materials: {own: {model: yan, preset: mouse, tables: t}}\narchives: {a: {rib: a.inc}}\n");
+  const SceneDescription outer = load_scene(folder_.path() / "scene.yaml");
+  EXPECT_TRUE(std::get<YanParams>(outer.materials.find("a.hair")->value).tables.empty());
+  EXPECT_EQ(std::get<YanParams>(outer.materials.find("own")->value).tables.path, folder_.path() / "t");
+  EXPECT_FALSE(outer.render.bvh.file.empty());
+  EXPECT_EQ(outer.warnings.size(), 2u);
+}
+
 TEST_F(RibDocumentTest, MistakesHavePositions) {
   EXPECT_NE(failure("WorldBegin\n Translate 1 WorldEnd").find("shot.rib:2:2: Translate: expected 3 numbers"),
             std::string::npos);

@@ -50,6 +50,13 @@ TEST_F(RibMaterialTableTest, ParametersOfShadersAreValuesOfMaterials) {
   EXPECT_NE(scene.warnings[0].message.find("shader 'other' is not known"), std::string::npos);
 }
 
+TEST_F(RibMaterialTableTest, ATableNamesNoFolderToWriteInto) {
+  const SceneDescription scene = shot("Surface \"hair\" \"string f\" \"/etc\"\n" + kHair,
+                                      "hair: {model: yan, preset: mouse, tables: $f}\n");
+  EXPECT_TRUE(std::get<YanParams>(scene.materials.find("hair")->value).tables.empty());
+  EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
 TEST_F(RibMaterialTableTest, CurvesAndMeshesMayDiffer) {
   const SceneDescription scene =
       shot("Surface \"matte\"\n" + kMesh + kHair,

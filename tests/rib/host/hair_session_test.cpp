@@ -91,6 +91,16 @@ TEST(HairSession, IsSharedByRequestsOfTheSameScene) {
   EXPECT_NE(first->frame(2, "walker"), first->frame(1, "walker"));
 }
 
+TEST(HairSession, ARequestNamesNoFolderToWriteInto) {
+  const FurryScene files;
+  const HairSession session(parse_hair_arguments(coat_of(
+      files, "'set=render.bvh={file: trees}' 'set=grooms.coat.cache={directory: stolen, freeze: width}'")));
+  EXPECT_TRUE(session.scene().render.bvh.file.empty());
+  EXPECT_EQ(session.scene().grooms.find("coat")->value.cache->directory.path, "cache");
+  EXPECT_FALSE(std::filesystem::exists("stolen"));
+  EXPECT_EQ(session.scene().warnings.size(), 2u);
+}
+
 TEST(HairSession, LeavesWaitForMemory) {
   const FurryScene files;
   const HairArguments arguments = parse_hair_arguments(coat_of(files, "memory=20M"));

@@ -2,6 +2,7 @@
 #include "rib/host/program_replies.h"
 
 #include <deque>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,24 @@ TEST(ProgramReplies, MistakesGiveAnEmptyReplyAndOneLine) {
   EXPECT_TRUE(asking.ids.empty());
   asking.ask("1e99 " + files.scene() + " character=post");  // and goes on
   EXPECT_EQ(asking.ids.size(), 30u);
+}
+
+TEST(ProgramReplies, LongRequestsAreNeitherHeldNorRepeated) {
+  std::istringstream input("1 short\n" + std::string(3 * kMaxProgramRequest, 'x') + "\n2 last");
+  std::string request;
+  ASSERT_TRUE(read_program_request(input, request));
+  EXPECT_EQ(request, "1 short");
+  ASSERT_TRUE(read_program_request(input, request));
+  EXPECT_EQ(request.size(), kMaxProgramRequest + 1);
+  EXPECT_LT(request.capacity(), 3 * kMaxProgramRequest);
+  RibText text;
+  EXPECT_EQ(ProgramReplies("p").reply(request, text), "procedural: a request has more than 1 MiB");
+  ASSERT_TRUE(read_program_request(input, request));
+  EXPECT_EQ(request, "2 last");
+  EXPECT_FALSE(read_program_request(input, request));
+  const std::string most(kMaxProgramRequest - 3, 'y');
+  for (const std::string& long_one : {most, "1 " + most, "1 s camera=" + most.substr(9)})
+    EXPECT_LT(ProgramReplies("p").reply(long_one, text).size(), 1100u);
 }
 
 TEST(OneLine, StatesTheFirstOfManyProblems) {

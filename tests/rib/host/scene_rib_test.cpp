@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "base/file.h"
 #include "render/frame/rest_place.h"
 #include "tests/rib/syntax/rib_tokens.h"
 #include "tests/world/furry_scene.h"
@@ -278,6 +279,64 @@ TEST_F(SceneRib, ExpandedAndArchivedCoatsHaveAllStrands) {
     EXPECT_EQ(found, ids(expanded));
     EXPECT_EQ(strands, 930u);
   }
+}
+
+/// A scene with two characters, each with a coat of its own.
+std::string two_coats(const std::string& a, const std::string& coat_a, const std::string& b,
+                      const std::string& coat_b) {
+  const auto character = [](const std::string& name, const std::string& coat) {
+    return "  \"" + name + "\": {parts: [{skin: cube, material: hide, grooms: {\"" + coat + "\": fur}}]}\n";
+  };
+  const auto groom = [](const std::string& name, int strands) {
+    return "  \"" + name + "\": {skin: cube, strands: " + std::to_string(strands) +
+           ", points: 4, operators: [{color: {value: 0.5}}]}\n";
+  };
+  return "include: fur.yaml\ngrooms:\n" + groom(coat_a, 20) + (coat_b == coat_a ? "" : groom(coat_b, 30)) +
+         "characters:\n" + character(a, coat_a) + character(b, coat_b);
+}
+
+TEST_F(SceneRib, NoNameLeavesTheFolderOrSharesAFile) {
+  const std::string far(200, 'x');
+  size_t number = 0;
+  for (const auto& [a, coat_a, b, coat_b] :
+       {std::array<std::string, 4>{"a", "b.c", "a.b", "c"},
+        {"../../../outside", "../../../outside", "/outside", "coat/../../../outside"},
+        {"..", ".", ".", ".."},
+        {far + "1", "c", far + "2", "c"}}) {
+    const std::string stem = "names" + std::to_string(++number);
+    files_.write(stem + ".yaml", two_coats(a, coat_a, b, coat_b));
+    QuietJob job;
+    const SceneDescription scene = load_scene(files_.path(stem + ".yaml"));
+    const auto assets = load_assets(scene, job);
+    const auto file = files_.path(stem + ".rib");
+    write_scene_rib(file, {files_.path(stem + ".yaml"), {}, scene, *assets},
+                    {{RibEncoding::kAscii, false}, RibCoats::kArchives, false}, job);
+    std::set<std::string> archives;
+    size_t strands = 0;
+    for (const RibRequest& request : file_requests(file)) {
+      if (request.name != "Procedural") continue;
+      const std::string& name = request.arguments[1].texts[0];
+      EXPECT_TRUE(archives.insert(name).second) << name;
+      EXPECT_TRUE(name.starts_with(stem + "_hair/") && name.find('/', stem.size() + 6) == std::string::npos)
+          << name;
+      strands += ids(file_requests(files_.path(name))).size();
+    }
+    EXPECT_EQ(strands, size_t{900 + 30 + 20 + (coat_a == coat_b ? 20u : 30u)}) << a;
+  }
+}
+
+TEST_F(SceneRib, FollowsNoLinkBesideTheFile) {
+  std::filesystem::create_directory(files_.path("elsewhere"));
+  std::filesystem::create_directory_symlink("elsewhere", files_.path("g_hair"));
+  const SceneRibOptions archives{{RibEncoding::kAscii, false}, RibCoats::kArchives, false};
+  EXPECT_THROW(write("g.rib", archives), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(files_.path("elsewhere")));
+  std::filesystem::create_directory(files_.path("h_hair"));
+  files_.write("precious", "precious");
+  std::filesystem::create_symlink("../precious", files_.path("h_hair/walker.coat.1.0.rib"));
+  write("h.rib", archives);
+  EXPECT_EQ(read_file(files_.path("precious")), "precious");
+  EXPECT_FALSE(std::filesystem::is_symlink(files_.path("h_hair/walker.coat.1.0.rib")));
 }
 
 TEST_F(SceneRib, OneFileOrOneFilePerFrame) {
