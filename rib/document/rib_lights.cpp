@@ -86,18 +86,18 @@ class LightBlock {
       matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), position);
       sphere(position, kPointRadius, radiance_ / (kPointRadius * kPointRadius));
     } else if (contains("area")) {
-      return square(0.5f);
+      return square(0.5f, 1);
     } else {
       return false;
     }
     return true;
   }
 
-  /// A square around the origin that shines along -z.
-  bool square(float half) {
+  /// A square around the origin. `along`: the z axis along which it shines, 1 or -1.
+  bool square(float half, float along) {
     std::vector<V3f> corners;
-    for (const V3f& p : {V3f(-half, half, 0), V3f(half, half, 0), V3f(half, -half, 0), V3f(-half, -half, 0)})
-      corners.push_back(p * matrix_);
+    for (const V2f& p : {V2f(-1, -1), V2f(1, -1), V2f(1, 1), V2f(-1, 1)})
+      corners.push_back(half * V3f(p.x, along * p.y, 0) * matrix_);
     return polygon(corners);
   }
 
@@ -106,7 +106,7 @@ class LightBlock {
     if (contains("dome") || contains("env")) {
       environment();
     } else if (contains("rect") || contains("portal") || contains("disk")) {
-      return square(contains("disk") ? 0.25f * std::sqrt(std::numbers::pi_v<float>) : 0.5f);
+      return square(contains("disk") ? 0.25f * std::sqrt(std::numbers::pi_v<float>) : 0.5f, -1);
     } else if (contains("distant")) {
       return distant(V3f(0), V3f(0, 0, -1), 0.5f * float_setting(shader_, "angleExtent", 0.53f));
     } else if (contains("sphere") || contains("cylinder")) {

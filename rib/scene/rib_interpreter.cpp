@@ -39,6 +39,19 @@ RibInterpreter::RibInterpreter(const RibReadOptions& options, RibContext context
       batches_([this](size_t coat, Strands batch) { keep_batch(coat, std::move(batch)); }) {}
 
 RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
+  // No effect on the picture of a path tracer.
+  static const std::set<std::string> ignored = {
+      "Clipping",   "version",        "Orientation",          "ReverseOrientation",
+      "Sides",      "ShadingRate",    "ShadingInterpolation", "GeometricApproximation",
+      "Integrator", "DisplayChannel", "PixelFilter",          "PixelVariance",
+      "Quantize",   "Bound",          "ErrorHandler",         "Illuminate"};
+  if (ignored.contains(name)) return &RibInterpreter::ignore;
+  const Handler found = content_handler(name);
+  return found ? found : state_handler(name);
+}
+
+/// Of requests that change the graphics state, the camera or options.
+RibInterpreter::Handler RibInterpreter::state_handler(const std::string& name) {
   using I = RibInterpreter;
   static const std::map<std::string, Handler> table = {
       {"AttributeBegin", &I::begin_block},
@@ -53,9 +66,6 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"WorldEnd", &I::end_block},
       {"MotionBegin", &I::begin_motion},
       {"MotionEnd", &I::end_motion},
-      {"ObjectBegin", &I::begin_object},
-      {"ArchiveBegin", &I::begin_object},
-      {"ObjectInstance", &I::instance},
       {"ConcatTransform", &I::transform},
       {"Translate", &I::transform},
       {"Rotate", &I::transform},
@@ -66,15 +76,11 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"ScopedCoordinateSystem", &I::coordinate_system},
       {"CoordSysTransform", &I::use_coordinate_system},
       {"Color", &I::color},
-      {"Surface", &I::surface},
       {"Basis", &I::basis},
       {"Attribute", &I::attribute},
       {"Declare", &I::declare},
-      {"LightSource", &I::light_source},
-      {"AreaLightSource", &I::area_light_source},
       {"Projection", &I::projection},
       {"ScreenWindow", &I::camera_numbers},
-      {"Clipping", &I::ignore},
       {"DepthOfField", &I::camera_numbers},
       {"Shutter", &I::camera_numbers},
       {"Format", &I::camera_numbers},
@@ -82,6 +88,24 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"PixelSamples", &I::camera_numbers},
       {"Display", &I::display},
       {"Option", &I::option},
+      {"Opacity", &I::opacity},
+      {"Camera", &I::named_camera},
+      {"Hider", &I::hider},
+  };
+  const auto found = table.find(name);
+  return found == table.end() ? nullptr : found->second;
+}
+
+/// Of requests for geometry, lights, shaders and archives.
+RibInterpreter::Handler RibInterpreter::content_handler(const std::string& name) {
+  using I = RibInterpreter;
+  static const std::map<std::string, Handler> table = {
+      {"ObjectBegin", &I::begin_object},
+      {"ArchiveBegin", &I::begin_object},
+      {"ObjectInstance", &I::instance},
+      {"Surface", &I::surface},
+      {"LightSource", &I::light_source},
+      {"AreaLightSource", &I::area_light_source},
       {"Curves", &I::curves},
       {"SubdivisionMesh", &I::mesh},
       {"PointsPolygons", &I::mesh},
@@ -92,9 +116,6 @@ RibInterpreter::Handler RibInterpreter::handler(const std::string& name) {
       {"Bxdf", &I::bxdf},
       {"Pattern", &I::pattern},
       {"Light", &I::ris_light},
-      {"Opacity", &I::opacity},
-      {"Camera", &I::named_camera},
-      {"Hider", &I::hider},
       {"HierarchicalSubdivisionMesh", &I::mesh},
       {"GeneralPolygon", &I::mesh},
       {"PatchMesh", &I::patch},

@@ -105,6 +105,8 @@ class RibInterpreter {
     RibAttributes saved;
   };
   static Handler handler(const std::string& name);
+  static Handler state_handler(const std::string& name);
+  static Handler content_handler(const std::string& name);
 
   void execute(RibStatement& request);
   bool record(const RibStatement& request);

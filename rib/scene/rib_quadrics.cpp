@@ -28,7 +28,7 @@ V2d direction(double degrees) {
 }
 
 /// Numbers of the request before its parameters.
-std::vector<double> arguments_of(const RibStatement& request, size_t count) {
+std::vector<double> sizes_of(const RibStatement& request, size_t count) {
   std::vector<double> numbers;
   for (const RibOperand& a : request.arguments) {
     if (!a.is_number()) break;
@@ -69,7 +69,7 @@ ControlMesh quadric(const RibStatement& request) {
   const std::string& name = request.name;
   const bool hyperboloid = name == "Hyperboloid";
   const size_t count = hyperboloid ? 7 : name == "Torus" ? 5 : name == "Cone" || name == "Disk" ? 3 : 4;
-  const std::vector<double> n = arguments_of(request, count);
+  const std::vector<double> n = sizes_of(request, count);
   return grid_mesh(kAround, kAlong, [&](int column, int row) {
     const double v = row / double{kAlong};
     const V2d turn = direction(n.back() * column / kAround);
