@@ -14,23 +14,6 @@ namespace {
 constexpr size_t kMaxFiles = 100;           // of nested archives
 constexpr size_t kMaxArchives = 1'000'000;  // read in all
 
-/// Requests that have no effect on the picture of a path tracer.
-constexpr std::string_view kWithoutEffect[] = {"version",
-                                               "Orientation",
-                                               "ReverseOrientation",
-                                               "Sides",
-                                               "ShadingRate",
-                                               "ShadingInterpolation",
-                                               "GeometricApproximation",
-                                               "Integrator",
-                                               "DisplayChannel",
-                                               "PixelFilter",
-                                               "PixelVariance",
-                                               "Quantize",
-                                               "Bound",
-                                               "ErrorHandler",
-                                               "Illuminate"};
-
 }  // namespace
 
 RibInterpreter::RibInterpreter(const RibReadOptions& options, RibContext context)
@@ -131,10 +114,7 @@ RibInterpreter::Handler RibInterpreter::content_handler(const std::string& name)
       {"Procedural2", &I::procedural},
   };
   const auto found = table.find(name);
-  if (found != table.end()) return found->second;
-  return std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), name) != std::end(kWithoutEffect)
-             ? &I::ignore
-             : nullptr;
+  return found == table.end() ? nullptr : found->second;
 }
 
 void RibInterpreter::warn_once(const std::string& kind, const SourcePosition& position,
