@@ -58,7 +58,7 @@ characters:
   EXPECT_EQ(run_grow(options), 0);
   testing::internal::GetCapturedStdout();
   const std::string warnings = testing::internal::GetCapturedStderr();
-  EXPECT_NE(warnings.find("two.hair: strands of walker.0.coat have no color; the file says white"),
+  EXPECT_NE(warnings.find("two.hair: strands of walker.coat have no color; the file says white"),
             std::string::npos)
       << warnings;
   const Strands strands = read_strands(options.output).strands;

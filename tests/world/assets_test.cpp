@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "tests/world/small_scene.h"
@@ -136,6 +137,77 @@ TEST_F(UpdatedAssets, MaterialsThatDifferInColorShareATable) {
   EXPECT_TRUE(table(0));
   EXPECT_EQ(table(0), table(1));
   EXPECT_NE(table(0), table(2));
+}
+
+/// A sheet of 2 n^2 triangles; with `sides` 2, each face is written twice, the second time turned over.
+std::string sheet(int n, int sides) {
+  std::string text;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j)
+      text += "v " + std::to_string(i) + " " + std::to_string(i * j % 3) + " " + std::to_string(j) + "\n";
+  }
+  const auto face = [&](int a, int b, int c) {
+    for (int side = 0; side < sides; ++side)
+      text += "f " + std::to_string(a) + " " + std::to_string(side ? c : b) + " " +
+              std::to_string(side ? b : c) + "\n";
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 1; j <= n; ++j) {
+      const int at = i * (n + 1) + j;
+      face(at, at + 1, at + n + 2);
+      face(at, at + n + 2, at + n + 1);
+    }
+  }
+  return text;
+}
+
+class SheetAssets : public testing::Test {
+ protected:
+  struct Warnings final : NoProgress {
+    void warn(std::string_view line) override { lines.emplace_back(line); }
+    std::vector<std::string> lines;
+  };
+
+  std::unique_ptr<Assets> load(const std::string& skins, const std::string& memory) {
+    files_.write("scene.yaml",
+                 "pelage: 1\nskins: " + skins +
+                     "\nmaterials: {hide: {model: lambert}}\ncharacters: {a: {parts: [{skin: a, "
+                     "material: hide}]}}\nrender: {memory: " +
+                     memory + "}\n");
+    return load_assets(load_scene(files_.path("scene.yaml")), Job{workers_, ledger_, progress_});
+  }
+
+  SmallScene files_;
+  Workers workers_{1};
+  MemoryLedger ledger_;
+  Warnings progress_;
+};
+
+TEST_F(SheetAssets, FacesOfBothSidesAreOne) {
+  files_.write("a.obj", sheet(4, 2));
+  files_.write("pose.0001.obj", sheet(4, 2));
+  const auto assets = load("{a: {mesh: a.obj, poses: {files: pose.%04d.obj, count: 1}}}", "1G");
+  EXPECT_EQ(assets->skins.at("a").cage.face_count(), 32u);
+  EXPECT_EQ(assets->skins.at("a").poses->positions(1).size(), 25u) << "the pose fits the file";
+  ASSERT_EQ(progress_.lines.size(), 1u);
+  EXPECT_NE(progress_.lines[0].find("left out 32 faces of "), std::string::npos) << progress_.lines[0];
+}
+
+/// Each skin fits the limit alone.
+TEST_F(SheetAssets, SkinsThatDoNotFitTogetherAreRefusedBeforeTheyAreMade) {
+  files_.write("a.obj", sheet(16, 1));
+  files_.write("b.obj", sheet(15, 1));
+  load("{a: {mesh: a.obj}}", "24M");
+  load("{a: {mesh: b.obj}}", "24M");
+  EXPECT_EQ(ledger_.budgeted(), 0);
+  try {
+    load("{a: {mesh: a.obj}, b: {mesh: b.obj}}", "24M");
+    ADD_FAILURE() << "two skins fit";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_NE(std::string(error.what()).find("skin 'b'"), std::string::npos) << error.what();
+  }
+  EXPECT_LE(ledger_.peak(MemoryTag::kSkins), 24 << 20);
 }
 
 }  // namespace
