@@ -117,6 +117,14 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+std::string file_problem(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::status_known(status)) return "cannot read: " + error.message();
+  if (!std::filesystem::exists(status)) return "there is no such file";
+  return std::filesystem::is_regular_file(status) ? "" : "is not a regular file";
+}
+
 std::filesystem::path target_of_links(const std::filesystem::path& path) {
   std::filesystem::path target = path;
   if (const std::string why = follow_links(target); !why.empty()) fail_write(path, why);

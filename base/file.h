@@ -34,6 +34,10 @@ inline constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";  ///< byte-order m
 /// Returns the extension of a file name in lower case, with its dot: ".exr" for "a.EXR".
 std::string lower_extension(const std::filesystem::path& path);
 
+/// Returns why a path names no regular file: "there is no such file", "is not a regular file" or, where that
+/// cannot be seen, as in a cycle of links, "cannot read: " with the reason. Empty if it names one.
+std::string file_problem(const std::filesystem::path& path);
+
 /// Follows symbolic links as long as the last component of the path is one, and returns the resulting path.
 /// The target need not exist. Throws Error (kFailed) for cyclic links, and for a link of another user, who
 /// would decide what is overwritten; root counts as no other user.

@@ -123,6 +123,19 @@ void write_shot(const SlurmShot& shot) {
   throw Error(ErrorKind::kStopped, "stopped; " + undone + "; `pelage farm submit` continues the shot");
 }
 
+/// Frames without checkpoints are finished when their pictures are there, whatever made these.
+void refuse_old_pictures(const FarmPlan& plan) {
+  for (const FarmTask& task : plan.tasks) {
+    std::error_code ignored;
+    const bool skips =
+        std::find(task.command.begin(), task.command.end(), "--skip-existing") != task.command.end();
+    if (skips && fs::exists(plan.folder / task.output, ignored))
+      throw Error(ErrorKind::kArguments,
+                  task.output + " exists, so this frame would count as finished, because " +
+                      "frames of this scene have no checkpoints; remove it, or use another -o");
+  }
+}
+
 bool was_submitted(const fs::path& folder) {
   std::error_code none;
   const auto bytes = fs::file_size(folder / "jobs", none);
@@ -169,8 +182,8 @@ void check_can_submit(const fs::path& folder) {
 }
 
 void check_same_shot(const fs::path& folder, const FarmPlan& plan) {
-  std::error_code ignored;
-  if (!was_submitted(folder) || !fs::exists(folder / "plan.json", ignored)) return;
+  if (!was_submitted(folder)) return refuse_old_pictures(plan);
+  if (std::error_code ignored; !fs::exists(folder / "plan.json", ignored)) return;
   const FarmPlan before = read_plan(folder);
   // A plan that has been written has no bytes that are not UTF-8.
   const std::string differences = plan_differences(before, parse_plan(plan_json(plan), folder));

@@ -34,7 +34,8 @@ std::optional<QueuedElements> ask_slurm(const std::filesystem::path& folder);
 void check_can_submit(const std::filesystem::path& folder);
 
 /// Throws Error (kArguments), and names what differs, if another shot was submitted in the folder: its
-/// finished pictures would count as those of `plan`, and its checkpoints would stop the tasks.
+/// finished pictures would count as those of `plan`, and its checkpoints would stop the tasks. Also throws it
+/// for the first submission of frames without checkpoints whose pictures are there already.
 void check_same_shot(const std::filesystem::path& folder, const FarmPlan& plan);
 
 /// Returns all scripts of a shot as one text, for people.

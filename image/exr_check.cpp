@@ -64,10 +64,8 @@ constexpr TypeBytes kTypeBytes[] = {
 class HeaderWalk {
  public:
   explicit HeaderWalk(const std::filesystem::path& path) : path_(path), stream_(path, std::ios::binary) {
+    if (const std::string problem = file_problem(path); !problem.empty()) fail(problem);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-      fail(std::filesystem::exists(path, error) ? "is not a regular file" : "there is no such file");
-    }
     if (!stream_) fail("cannot be opened");
     size_ = static_cast<int64_t>(std::filesystem::file_size(path, error));
   }

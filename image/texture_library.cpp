@@ -37,10 +37,7 @@ namespace {
 /// Throws Error (kInput) with a clear message for problems that image libraries report poorly: a file that is
 /// missing, empty, truncated (PNG and JPEG), not a regular file or a git-lfs pointer, or damaged EXR headers.
 void check_image_file(const AssetPath& asset) {
-  std::error_code error;
-  const auto status = std::filesystem::status(asset.path, error);
-  if (!std::filesystem::exists(status)) fail_image(asset, "there is no such file");
-  if (!std::filesystem::is_regular_file(status)) fail_image(asset, "is not a regular file");
+  if (const std::string problem = file_problem(asset.path); !problem.empty()) fail_image(asset, problem);
   std::ifstream stream(asset.path, std::ios::binary);
   std::string beginning(64, '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));

@@ -122,12 +122,12 @@ std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopolo
   return topology;
 }
 
-// A missing file is an error at the place in the scene that names it.
+// A missing file is an error at the place in the scene that names it. So is a cycle of links.
 void require_file(const std::filesystem::path& file, const SourcePosition& named_at) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    throw Error(ErrorKind::kInput, named_at, "no such file " + file.string());
-  }
+  const bool exists = std::filesystem::exists(file, error);
+  if (error) throw Error(ErrorKind::kInput, named_at, file.string() + ": cannot read: " + error.message());
+  if (!exists) throw Error(ErrorKind::kInput, named_at, "no such file " + file.string());
 }
 
 PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, MemoryLedger& ledger) {

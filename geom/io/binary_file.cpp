@@ -17,10 +17,8 @@ namespace pelage {
 static_assert(std::endian::native == std::endian::little, "a strand file is mapped into memory as it is");
 
 BinaryFile::BinaryFile(const std::filesystem::path& path) : path_(path) {
+  if (const std::string problem = file_problem(path); !problem.empty()) fail(problem);
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail("there is no such file");
-  if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
   descriptor_.number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   size_ = std::filesystem::file_size(path, error);
   if (descriptor_.number < 0 || error) fail("cannot be opened");

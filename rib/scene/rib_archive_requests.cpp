@@ -24,7 +24,9 @@ std::optional<std::filesystem::path> RibInterpreter::find_file(const std::string
     folders.emplace_back(folder);
   }
   for (const std::filesystem::path& folder : folders) {  // `file` alone if it is absolute
-    if (std::filesystem::exists(folder / file, ignored)) return (folder / file).lexically_normal();
+    // A link that leads nowhere is found, and reading it says why.
+    const auto status = std::filesystem::symlink_status(folder / file, ignored);
+    if (std::filesystem::exists(status)) return (folder / file).lexically_normal();
   }
   warn_once("file " + name, request.position(),
             request.name + ": no such file " + quote(name) +

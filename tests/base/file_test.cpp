@@ -59,6 +59,17 @@ TEST(ReadFile, FollowsLinksUnlessToldNotTo) {
   EXPECT_THROW(read_file(folder.path() / "link", 4, OpenFile::Links::kRefuse), Error);
 }
 
+TEST(FileProblem, SaysWhyAPathNamesNoFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "file") << "x";
+  std::filesystem::create_symlink("circle", folder.path() / "circle");
+  EXPECT_EQ(file_problem(folder.path() / "file"), "");
+  EXPECT_EQ(file_problem(folder.path()), "is not a regular file");
+  EXPECT_EQ(file_problem(folder.path() / "none"), "there is no such file");
+  EXPECT_EQ(file_problem(folder.path() / "file" / "none"), "there is no such file");
+  EXPECT_EQ(file_problem(folder.path() / "circle").find("cannot read: "), 0u);
+}
+
 TEST(ReadFile, DoesNotHangOnAPipeWithoutAWriter) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);

@@ -210,6 +210,15 @@ for job; do sed -i "/^$job /d" "$FAKE/queue"; done
         self.assertGreater(states["render-0001-r0c0"]["cpu_s"], 0)
         self.assertNotIn("Failures and restarts", (self.path / "farm/index.html").read_text())
 
+    def test_pictures_of_another_shot_do_not_count_as_finished(self):
+        self.fake("sbatch", self.IDLE)
+        (self.path / "a b.0002.exr").write_text("old")
+        for noise in "render.adaptive={noise: 0.05}", "render.time_limit=5":
+            err = self.farm("submit", "scene.yaml", *SHOT, "--set", noise, code=2)[1]
+            self.assertIn("a b.0002.exr exists, so this frame would count as finished", err)
+            self.assertFalse((self.path / "farm/jobs").exists())
+        self.farm("submit", "scene.yaml", *SHOT)  # a frame with checkpoints is rendered
+
     def test_ctrl_c_leaves_no_job_that_no_file_knows(self):
         # Slurm accepts a job at once, and answers late.
         self.fake("sbatch", """#!/bin/bash
@@ -268,6 +277,7 @@ echo "$number"
         for name in "state", "logs", "tasks", "thumbs", "pieces":
             place, kept = self.path / "farm" / name, self.path / "kept"
             (self.path / "away").mkdir()
+            place.mkdir(exist_ok=True)
             place.rename(kept)
             place.symlink_to(self.path / "away")
             self.farm("status", "farm")

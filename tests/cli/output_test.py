@@ -57,11 +57,11 @@ class Output(ProgramTest):
 
     def test_inputs_that_are_loops_of_links_cannot_be_read(self):
         scene, text = self.path / "scene.yaml", (self.path / "scene.yaml").read_text()
-        for kind, old, new in ("mesh", "mesh: cube.obj", "mesh: loop.obj"), (
-                "strands", "strands: 400\n    points: 5\n    operators: [{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.005}}]",
-                "strands_file: loop.hair"), ("map", "color: 0.4", "color: {map: loop.png}"), (
-                "environment", "radiance: 0.3", "file: loop.exr"), ("RIB", "lights:", "archives: {a: {rib: loop.rib}}\nlights:"), (
-                "include", "pelage: 1", "pelage: 1\ninclude: loop.yaml"):
+        strands = text[text.index("strands: 400"):text.index("materials:")].rstrip()
+        for kind, old, new in (("mesh", "mesh: cube.obj", "mesh: loop.obj"), ("strands", strands, "strands_file: loop.hair"),
+                               ("environment", "radiance: 0.3", "file: loop.exr"),
+                               ("RIB", "lights:", "archives: {a: {rib: loop.rib}}\nlights:"),
+                               ("include", "pelage: 1", "pelage: 1\ninclude: loop.yaml")):
             self.assertIn(old, text)
             scene.write_text(text.replace(old, new))
             name = new[new.index("loop."):].split()[0].rstrip("}")

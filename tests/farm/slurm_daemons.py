@@ -11,6 +11,7 @@ import time
 NEEDED = ("slurmctld", "slurmd", "munged", "sbatch")
 CONFIG = """ClusterName=pelage
 SlurmctldHost=%(host)s(127.0.0.1)
+CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 SlurmUser=root
 SlurmdUser=root
 SlurmctldPort=%(controller)d
