@@ -15,6 +15,7 @@ namespace pelage {
 namespace {
 
 constexpr size_t kMaxRibFrames = 10'000;
+constexpr size_t kMaxLightLayers = 100;  // of more lights, the layers would take more memory than the scene
 
 /// Position, target and up vector of a camera matrix.
 struct Pose {
@@ -241,10 +242,18 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
   add_entry(document, "pelage", rib_number(at, 1));
   if (!list.empty()) add_entry(document, "frames", rib_text(at, list));
   add_entry(document, "camera", picture.camera());
+  const Value image_option = option_block(rib, "image", at);
+  const bool many_lights = rib.lights.size() > kMaxLightLayers && !image_option.find("light_layers");
+  if (many_lights)
+    warnings.push_back({at, fmt::format("{} lights; their layers are left out of the picture "
+                                        "(--set image.light_layers=true)",
+                                        rib.lights.size())});
   for (const char* name : {"units", "image", "render"}) {
     Value block = name == std::string_view("image") ? picture.image() : Value::map(at, {});
     if (std::optional<Value> samples = picture.samples(); samples && name == std::string_view("render"))
       block = std::move(*samples);
+    if (many_lights && name == std::string_view("image"))
+      add_entry(block, "light_layers", Value::scalar(at, "false"));
     add_missing(block, option_block(rib, name, at));
     if (!block.entries().empty()) add_entry(document, name, std::move(block));
   }

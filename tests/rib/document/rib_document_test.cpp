@@ -194,6 +194,17 @@ TEST_F(RibDocumentTest, LightsOfOldShadersAreNoBackground) {
   EXPECT_EQ(scene.warnings.size(), 4u) << "the missing map, the map of another kind, the cone, the polygon";
 }
 
+TEST_F(RibDocumentTest, ThousandsOfLightsHaveNoLayers) {
+  std::string lights;
+  for (int i = 0; i < 101; ++i) lights += "LightSource \"pointlight\" 1 ";
+  const std::string picture = "Projection \"perspective\" WorldBegin " + lights + "WorldEnd";
+  EXPECT_FALSE(shot(picture).image.light_layers);
+  EXPECT_EQ(shot(picture).warnings.size(), 1u);
+  EXPECT_TRUE(shot(picture, {{"image.light_layers", "true"}}).image.light_layers);
+  EXPECT_TRUE(
+      shot("Option \"pelage\" \"string image\" [\"{light_layers: true}\"] " + picture).image.light_layers);
+}
+
 TEST_F(RibDocumentTest, LightsOfRis) {
   const SceneDescription scene = shot(
       "Projection \"perspective\" Scale 1 1 -1 WorldBegin Light \"PxrDomeLight\" \"dome\" \"float "
