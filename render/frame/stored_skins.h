@@ -28,7 +28,7 @@ class StoredSkins {
  public:
   /// Version of the stored data. Must be raised by every change that gives other pieces or triangles for the
   /// same skins. tests/render/frame/stored_versions_test.cpp fails when they change and the version does not.
-  static constexpr uint32_t kVersion = 1;
+  static constexpr uint32_t kVersion = 2;
 
   /// Hash of everything on which pieces and triangles depend. Empty when a skin has no hash.
   static std::optional<ContentHash> key(const RenderScene& scene, size_t max_cost);
