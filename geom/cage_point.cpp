@@ -17,12 +17,12 @@ V3d scaled_normal(const SurfacePoint& at) {
 
 }  // namespace
 
-SurfacePoint cage_point(const SurfaceTopology& topology, std::span<const V3f> positions, uint32_t face,
-                        float u, float v) {
+SurfacePoint cage_point(const SurfaceTopology& topology, uint32_t face, float u, float v,
+                        const std::function<V3f(uint32_t)>& position) {
   const CageConnectivity& cage = topology.impl().cage;
   const uint32_t whole = topology.impl().cage_face[face], size = cage.face_size(whole);
   const auto corner = [&](uint32_t i) {
-    return positions[cage.corner_vertex[cage.first_corner[whole] + i % size]];
+    return position(cage.corner_vertex[cage.first_corner[whole] + i % size]);
   };
   if (topology.is_triangular()) {
     const V3f a = corner(0), du = corner(1) - a, dv = corner(2) - a;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
+#include <functional>
 
 #include "geom/limit_surface.h"
 
@@ -9,9 +9,9 @@ namespace pelage {
 
 /// Returns the point (u, v) of a ptex face on the cage itself rather than on its limit surface, with
 /// derivatives: interpolated between the corners, linearly on triangles and bilinearly on squares.
-/// `positions`: of the control vertices.
-SurfacePoint cage_point(const SurfaceTopology& topology, std::span<const V3f> positions, uint32_t face,
-                        float u, float v);
+/// `position(vertex)`: of a control vertex.
+SurfacePoint cage_point(const SurfaceTopology& topology, uint32_t face, float u, float v,
+                        const std::function<V3f(uint32_t)>& position);
 
 /// How a surface moves between two times, near one of its points. In a rigid motion, all results are exact up
 /// to rounding, however far the surface is from these two points.

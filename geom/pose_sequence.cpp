@@ -14,7 +14,7 @@ namespace pelage {
 /// The files of a sequence, and the poses read from them.
 class PoseSequence::Files {
  public:
-  using Positions = std::shared_ptr<const std::vector<V3f>>;
+  using Positions = BlendedPose::Positions;
 
   Files(std::vector<std::filesystem::path> paths, const MeshOrder& order, MemoryLedger& ledger)
       : paths_(std::move(paths)), order_(order), ledger_(ledger), read_(paths_.size()) {
@@ -70,7 +70,7 @@ PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, 
 PoseSequence::PoseSequence(PoseSequence&&) noexcept = default;
 PoseSequence::~PoseSequence() = default;
 
-std::vector<V3f> PoseSequence::positions(double frame) const {
+BlendedPose PoseSequence::at(double frame) const {
   const auto count = static_cast<double>(files_->count());
   double at = (frame - first_) / frames_per_pose_;
   if (cycle_) at -= std::floor(at / count) * count;
@@ -80,11 +80,14 @@ std::vector<V3f> PoseSequence::positions(double frame) const {
   const auto t = static_cast<float>(at - below);
   const size_t from = static_cast<size_t>(below) % files_->count();
   const size_t to = t > 0 ? (from + 1) % files_->count() : from;
-  std::vector<V3f> result = *files_->get(from);
-  if (to != from) {
-    const Files::Positions next = files_->get(to);
-    for (size_t i = 0; i < result.size(); ++i) result[i] = result[i] * (1 - t) + (*next)[i] * t;
-  }
+  Files::Positions first = files_->get(from);
+  return {std::move(first), to != from ? files_->get(to) : nullptr, t};
+}
+
+std::vector<V3f> PoseSequence::positions(double frame) const {
+  const BlendedPose pose = at(frame);
+  std::vector<V3f> result(pose.size());
+  for (size_t i = 0; i < result.size(); ++i) result[i] = pose[i];
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/ledger.h"
@@ -10,6 +11,26 @@
 #include "geom/mesh.h"
 
 namespace pelage {
+
+/// The positions of a cage between two poses of a sequence, in object space. They are interpolated on demand.
+/// Keeps the two poses in memory.
+class BlendedPose {
+ public:
+  using Positions = std::shared_ptr<const std::vector<V3f>>;
+  BlendedPose() = default;
+  /// `t`: 0 at `from`, 1 at `to`. `to` may be null if t is 0.
+  BlendedPose(Positions from, Positions to, float t) : from_(std::move(from)), to_(std::move(to)), t_(t) {}
+
+  size_t size() const { return from_->size(); }
+  V3f operator[](size_t vertex) const {
+    const V3f& a = (*from_)[vertex];
+    return to_ ? a * (1 - t_) + (*to_)[vertex] * t_ : a;
+  }
+
+ private:
+  Positions from_, to_;
+  float t_ = 0;
+};
 
 /// Poses of a cage, one OBJ file per pose. The first file is shown at frame `first`, and each following file
 /// `frames_per_pose` frames after the one before it. Positions between two poses are interpolated linearly.
@@ -36,6 +57,8 @@ class PoseSequence {
   /// name of a file that is missing, damaged, or does not fit the order. Throws Error (kMemory) before a pose
   /// is read that does not fit the ledger's limit.
   std::vector<V3f> positions(double frame) const;
+  /// Reads the poses around a frame. Throws the same errors.
+  BlendedPose at(double frame) const;
 
  private:
   class Files;

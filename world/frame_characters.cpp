@@ -37,11 +37,18 @@ struct Motion {
   V3f origin;
 
   bool moves() const { return poses || pelage::moves(character.params->transform); }
+  /// Frame of the poses at a frame of the scene.
+  double shown_at(double time) const {
+    return time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
+  }
+  FrameMotion to_next(double frame) const {
+    FrameMotion motion{{to_world(character, frame, origin), to_world(character, frame + 1, origin)}, {}};
+    if (poses) motion.poses = {poses->at(shown_at(frame)), poses->at(shown_at(frame + 1))};
+    return motion;
+  }
   void add_pose(double time, PosedCages& cages) const {
     const M44f matrix = to_world(character, time, origin);
-    const double shown =
-        time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
-    std::vector<V3f> cage = poses ? poses->positions(shown) : rest;
+    std::vector<V3f> cage = poses ? poses->positions(shown_at(time)) : rest;
     for (V3f& point : cage) point *= matrix;
     cages.cages.push_back(std::move(cage));
     cages.transforms.push_back(matrix);
@@ -99,9 +106,8 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
   for (size_t part = 0; part < character.parts.size(); ++part) {
     const Motion motion = motion_of(animal, part, assets);
     const bool shutter = scene.camera.shutter.y > scene.camera.shutter.x;
-    const size_t times = !motion.moves() ? size_t(1)
-                         : shutter       ? static_cast<size_t>(scene.camera.motion_keys) + 4
-                                         : size_t(3);
+    const size_t times =
+        motion.moves() && shutter ? static_cast<size_t>(scene.camera.motion_keys) + 2 : size_t(1);
     bytes += times * (motion.rest.size() * sizeof(V3f) + sizeof(std::vector<V3f>) + sizeof(M44f) + kHeap);
     bytes += sizeof(PosedCharacterSkin) + 4 * kHeap + sizeof(SkinPart) + kName;
     bytes += character.parts[part].grooms.items.size() *
@@ -149,9 +155,7 @@ CharacterPose pose_character(const FrameCharacter& character, size_t part, const
       motion.add_pose(open + length * key / (camera.motion_keys - 1), pose.shutter);
     for (double end : {frame - 0.5, frame + 0.5}) motion.add_pose(end, pose.frame_ends);
   }
-  if (motion.moves()) {
-    for (double one : {frame, frame + 1}) motion.add_pose(one, pose.frames);
-  }
+  if (motion.moves()) pose.motion = motion.to_next(frame);
   return pose;
 }
 

@@ -15,9 +15,10 @@ namespace {
 // Up to this many widths from the origin, rounding the points of strands to floats changes the mean of a
 // picture by less than 0.3 % (measured with coats at 1e2 to 1e6 times their size).
 constexpr float kFineWidths = 0x1p16f;
-// The warning: floats near the coat are farther apart than this fraction of its radius. A camera that is
-// rounded by half of that, at four radii from the coat, changes the area of the coat by up to 0.3 %.
-constexpr float kCoarseStep = 1.0f / 64;
+// The warnings: floats near the coat are farther apart than this fraction of its radius. A camera that is
+// rounded by half of that, at four radii from the coat, changes the area of the coat by up to 0.3 %. If the
+// vertices of its mesh are rounded, so are its normals.
+constexpr float kCoarseStep = 1.0f / 64, kCoarseVertices = 1.0f / 256;
 
 float largest(const Box3f& box) {
   float max = 0;
@@ -107,13 +108,14 @@ std::optional<std::string> coarse_position(const SceneDescription& scene, const 
   const float in_file = largest(assets.skins.at(skin).rest->control_bounds()) * coat->scale(frame);
   const float in_scene = largest(coat->box), reach = std::max(in_scene, in_file);
   const float radius = 0.5f * coat->box.size().length(), step = reach * std::numeric_limits<float>::epsilon();
-  if (!std::isfinite(reach) || !(step > kCoarseStep * radius)) return {};
+  const float max = in_file < reach ? kCoarseStep : kCoarseVertices;
+  if (!std::isfinite(reach) || !(step > max * radius)) return {};
   return fmt::format(
       "{} is {:.2g} units from the origin{}, where coordinates are rounded to multiples of about {:.1g} "
       "units, "
       "{:.2g} % of its size: move {} nearer to the origin",
-      coat->character->name, reach, in_file > in_scene ? " of its mesh file" : "", step, 50 * step / radius,
-      in_file > in_scene ? "the mesh" : "the scene");
+      coat->character->name, reach, in_file < reach ? "" : " of its mesh file", step, 50 * step / radius,
+      in_file < reach ? "the scene" : "the mesh");
 }
 
 }  // namespace pelage

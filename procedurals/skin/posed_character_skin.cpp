@@ -52,7 +52,6 @@ PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseC
   PELAGE_CHECK(pose_.shutter.transforms.size() == pose_.shutter.cages.size());
   PELAGE_CHECK(pose_.frame_ends.cages.size() == pose_.frame_ends.transforms.size());
   PELAGE_CHECK(pose_.frame_ends.cages.empty() || pose_.frame_ends.cages.size() == 2);
-  PELAGE_CHECK(pose_.frames.cages.empty() || pose_.frames.cages.size() == 2);
   // The size of the trees is known only after making them.
   if (pose_.push_out_view) poses_->reserve(make(BoundSpan::kFrame)->bytes());
 }
@@ -175,11 +174,15 @@ size_t PosedCharacterSkin::temporary_bytes(const SkinPiece& piece) const {
 }
 
 std::optional<SurfaceStep> PosedCharacterSkin::step(const RootAddress* place) const {
-  const PosedCages& frames = pose_.frames;
-  if (frames.cages.empty()) return {};
+  if (!pose_.motion) return {};
   const auto at = [&](size_t i) -> SurfacePoint {
-    if (place) return cage_point(*pose_.topology, frames.cages[i], place->face, place->u, place->v);
-    const M44f& m = frames.transforms[i];
+    const M44f& m = pose_.motion->transforms[i];
+    if (place && pose_.motion->poses) {
+      const BlendedPose& pose = (*pose_.motion->poses)[i];
+      return cage_point(*pose_.topology, place->face, place->u, place->v,
+                        [&](uint32_t vertex) { return pose[vertex] * m; });
+    }
+    // The transform moves all points, so any point will do.
     return {V3f(m[3][0], m[3][1], m[3][2]), V3f(m[0][0], m[0][1], m[0][2]), V3f(m[1][0], m[1][1], m[1][2])};
   };
   return SurfaceStep{at(0), at(1)};
@@ -187,11 +190,13 @@ std::optional<SurfaceStep> PosedCharacterSkin::step(const RootAddress* place) co
 
 std::optional<V3f> PosedCharacterSkin::normal(const RootAddress& place) const {
   const std::vector<V3f>& cage = pose_.shutter.cages.front();
-  return LimitSurface::frame_of(cage_point(*pose_.topology, cage, place.face, place.u, place.v)).normal;
+  const SurfacePoint point = cage_point(*pose_.topology, place.face, place.u, place.v,
+                                        [&](uint32_t vertex) { return cage[vertex]; });
+  return LimitSurface::frame_of(point).normal;
 }
 
 size_t PosedCharacterSkin::bytes() const {
-  return sizeof(*this) + cage_bytes(pose_.shutter) + cage_bytes(pose_.frame_ends) + cage_bytes(pose_.frames);
+  return sizeof(*this) + cage_bytes(pose_.shutter) + cage_bytes(pose_.frame_ends);
 }
 
 }  // namespace pelage

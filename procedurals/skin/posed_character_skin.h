@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "base/hash.h"
 #include "geom/limit_surface.h"
+#include "geom/pose_sequence.h"
 #include "geom/view.h"
 #include "procedurals/skin/deferred_skin.h"
 #include "procedurals/skin/pose_cache.h"
@@ -21,6 +23,13 @@ struct PosedCages {
   std::vector<M44f> transforms;         ///< object to world space, one per time; for strands without a skin
 };
 
+/// Motion of one skin of one character from the frame to the next one.
+struct FrameMotion {
+  std::array<M44f, 2> transforms;  ///< object to world space
+  /// Cages in object space; empty if they are at rest at both times.
+  std::optional<std::array<BlendedPose, 2>> poses;
+};
+
 /// One skin of one character in a frame: the input of a PosedCharacterSkin.
 struct CharacterPose {
   std::shared_ptr<const SurfaceTopology> topology;
@@ -30,8 +39,7 @@ struct CharacterPose {
   /// Cages at the two ends of the frame interval, frame - 1/2 and frame + 1/2; empty if `shutter` has one
   /// time.
   PosedCages frame_ends;
-  /// Cages at the frame and at the next one, for motion vectors; empty if nothing moves.
-  PosedCages frames;
+  std::optional<FrameMotion> motion;  ///< for motion vectors; empty if nothing moves
   /// Scale of the character, by which strands are scaled about their roots. For a non-uniform scale, this is
   /// the cube root of the determinant. The directions of strands follow the posed cage.
   float scale = 1;

@@ -230,12 +230,13 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
 }
 
 /// Tells a point near the root of its strand where the skin is.
-void FrameShading::set_skin(const Hit& hit, const Strands& strand, float time, ScatterPoint& point) const {
+void FrameShading::set_skin(const Ray& ray, const Hit& hit, const Strands& strand,
+                            ScatterPoint& point) const {
   const std::shared_ptr<const DeferredSkin>& skin = scene_.fur[hit.part].follows;
   if (!skin || !strand.has_roots()) return;
-  const V3f root = position_at(strand, 0, time);
+  const V3f root = position_at(strand, 0, ray.time);
   const float near = kNearRoot * point.exit().radius;
-  if ((point.start(V3f(0)) - root).length2() > near * near) return;
+  if ((ray.origin + hit.distance * ray.direction - root).length2() > near * near) return;
   if (const std::optional<V3f> normal = skin->normal(strand.root(0))) point.set_skin(root, *normal);
 }
 
@@ -243,7 +244,7 @@ ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit,
                                          const HitGeometry& hit_geometry) const {
   ScatterPoint point = hit.kind == HitKind::kStrand ? fibre_point(ray, hit, hit_geometry.strand)
                                                     : skin_point(ray, hit, hit_geometry.triangle);
-  if (hit.kind == HitKind::kStrand) set_skin(hit, hit_geometry.strand, ray.time, point);
+  if (hit.kind == HitKind::kStrand) set_skin(ray, hit, hit_geometry.strand, point);
   if (balls_) point.set_shadow(balls_->below(hit, hit_geometry, ray.time));
   return point;
 }

@@ -49,7 +49,7 @@ class FrameShading {
   /// detail.
   float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
-  void set_skin(const Hit& hit, const Strands& strand, float time, ScatterPoint& point) const;
+  void set_skin(const Ray& ray, const Hit& hit, const Strands& strand, ScatterPoint& point) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;
   Rgb fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const;
   Rgb skin_color(const SkinPart& part, const Skin& skin, const Hit& hit, const SkinMesh& triangle) const;

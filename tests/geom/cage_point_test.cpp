@@ -12,6 +12,10 @@ LimitSurface smooth(const ControlMesh& cage, SubdivisionScheme scheme = kCatmull
   return {SurfaceTopology::create(cage, scheme, kCorners, "test"), cage.positions};
 }
 
+auto of(const std::vector<V3f>& positions) {
+  return [&](uint32_t vertex) { return positions[vertex]; };
+}
+
 template <class Visit>
 void visit_points(const SurfaceTopology& topology, const Visit& visit) {
   for (uint32_t face = 0; face < topology.face_count(); ++face) {
@@ -26,7 +30,7 @@ TEST(CagePoint, IsThatOfSurfacesWithoutRounding) {
     const LimitSurface surface = smooth(cage, scheme);
     visit_points(surface.topology(), [&](uint32_t face, float u, float v) {
       const SurfacePoint expected = surface.evaluate(face, u, v);
-      const SurfacePoint point = cage_point(surface.topology(), cage.positions, face, u, v);
+      const SurfacePoint point = cage_point(surface.topology(), face, u, v, of(cage.positions));
       EXPECT_LT((point.position - expected.position).length(), 1e-5f);
       EXPECT_LT((point.du - expected.du).length() + (point.dv - expected.dv).length(), 1e-4f);
     });
@@ -41,8 +45,8 @@ TEST(SurfaceStep, MovesPointsFarFromACoarseCageExactly) {
     std::vector<V3f> next = cage.positions;
     for (V3f& p : next) p = p * scale * motion;
     visit_points(surface.topology(), [&](uint32_t face, float u, float v) {
-      const SurfaceStep step{cage_point(surface.topology(), cage.positions, face, u, v),
-                             cage_point(surface.topology(), next, face, u, v)};
+      const SurfaceStep step{cage_point(surface.topology(), face, u, v, of(cage.positions)),
+                             cage_point(surface.topology(), face, u, v, of(next))};
       const V3f root = surface.evaluate(face, u, v).position, tip = root + V3f(0.5f, 0.25f, -0.25f);
       EXPECT_LT((step.moved(root) - root * scale * motion).length(), 1e-4f);
       // A strand turns with the surface and keeps its length.
