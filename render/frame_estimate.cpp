@@ -52,7 +52,7 @@ void add_balls(const RenderScene& scene, const Job& job, ShadowEstimate& estimat
 
 // Code, tables of libraries and stacks that a render touches after the scene has been read: about 5 MiB in a
 // picture of a few strands, and more with all kinds of lights and maps.
-constexpr int64_t kLibraries = int64_t{8} << 20, kThread = int64_t{2} << 20;
+constexpr int64_t kLibraries = int64_t{5} << 20, kThread = int64_t{2} << 20;
 constexpr size_t kSampledFur = 24, kSampledSkins = 8;  // chunks to grow
 // Rough CPU seconds: of a channel of a pixel in a file, of a camera sample, and of each bounce after it.
 constexpr double kWrittenValue_s = 1e-7;
