@@ -21,7 +21,10 @@ std::map<std::string, std::vector<ExrChannel>> film_layers(
     }
   }
   std::map<std::string, std::vector<ExrChannel>> layers;
-  const auto accepts = [&](const std::string& channel) { return wanted(layer_of(channel)); };
+  // The page reads the integers of `id`; id.X, the same as floats, is for other programs.
+  const auto accepts = [&](const std::string& channel) {
+    return channel != "id.X" && wanted(layer_of(channel));
+  };
   for (ExrChannel& channel : film.exr_pixels({0, 0, film.width(), film.height()}, accepts))
     layers[layer_of(channel.name)].push_back(std::move(channel));
   return layers;
