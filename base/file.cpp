@@ -223,7 +223,11 @@ bool AtomicFile::commit_over(std::string_view expected) {
   // the program has saved once more, the exchange took that file, and the next one brings it back.
   struct stat own {
   }, taken{};
-  if (!exchange() || ::fstat(descriptor_, &own) != 0) fail_write(named_, reason());
+  if (!exchange() || ::fstat(descriptor_, &own) != 0) {
+    const std::string why = reason();
+    temporary_.clear();  // it may be the file of the other program
+    fail_write(named_, why);
+  }
   if (::stat(temporary_.c_str(), &taken) == 0 && taken.st_ino != own.st_ino && !exchange())
     fail_write(named_, reason());
   return false;

@@ -20,8 +20,9 @@ struct WorkRange {
 ///
 /// After the first exception, a loop starts no further ranges. for_each() rethrows this exception once all
 /// workers have stopped. Results must not depend on the order of ranges, nor on `worker`, which may only
-/// select scratch memory (law 1). In the thread-sanitizer build, the pool uses std::thread, because the
-/// threads of TBB are not instrumented.
+/// select scratch memory (law 1). Loops that several threads start take turns, so a loop must not start a
+/// loop of its own pool, which would wait for it. In the thread-sanitizer build, the pool uses std::thread,
+/// because the threads of TBB are not instrumented.
 class Workers {
  public:
   /// `threads`: number of threads; 0 means available_processors().

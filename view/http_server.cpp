@@ -45,18 +45,21 @@ struct HttpServer::State {
 };
 
 void HttpServer::State::accept() {
-  accepts = true;
   acceptor.async_accept([this](boost::system::error_code failed, tcp::socket socket) {
     if (failed) {
       // The process has no file descriptors left, for example. Without a pause, this would fail all the time.
       if (!waiting.empty()) close(waiting.begin());
+      accepts = false;
       pause.expires_after(kPause);
-      return pause.async_wait([this](boost::system::error_code) { accept(); });
+      pause.async_wait([this](boost::system::error_code) { accept(); });
+      accepts = true;
+      return;
     }
     accepts = false;
     admit(std::move(socket));
     accept();
   });
+  accepts = true;
 }
 
 void HttpServer::State::admit(tcp::socket socket) {

@@ -156,7 +156,9 @@ void RibInterpreter::begin_object(const Call& call) {
   recorded_ = object_key(request);
   recording_ = request.name == "ObjectBegin" ? "ObjectEnd" : "ArchiveEnd";
   opened_at_ = request.position();
-  objects_[recorded_].clear();
+  std::vector<RibStatement>& object = objects_[recorded_];
+  if (&object == replayed_) request.fail("an object cannot be defined again within itself");
+  object.clear();
 }
 
 void RibInterpreter::instance(const Call& call) {
@@ -167,8 +169,8 @@ void RibInterpreter::instance(const Call& call) {
     warn_once("object " + key, request.position(), "there is no object " + quote(key) + "; skipped");
     return;
   }
-  if (replaying_) request.fail("an instance within an object");
-  replaying_ = true;
+  if (replayed_) request.fail("an instance within an object");
+  replayed_ = &object->second;
   const size_t depth = blocks_.size();
   const RibAttributes saved = now_;
   // A copy, because requests are changed when they are executed.
@@ -179,7 +181,7 @@ void RibInterpreter::instance(const Call& call) {
   }
   if (blocks_.size() != depth || in_motion_) request.fail("the object has blocks that are not closed");
   now_ = saved;
-  replaying_ = false;
+  replayed_ = nullptr;
 }
 
 }  // namespace pelage

@@ -245,8 +245,8 @@ class RibInterpreter {
   std::string recording_;  // the request that ends the recording; empty: none
   std::string recorded_;   // key of the object
   std::map<std::string, std::vector<RibStatement>> objects_;
-  bool replaying_ = false;
-  SourcePosition opened_at_;  // of the motion block or object
+  const std::vector<RibStatement>* replayed_ = nullptr;  // of `objects_`; null outside instances
+  SourcePosition opened_at_;                             // of the motion block or object
   std::deque<WaitingProgram> programs_;
   size_t program_depth_ = 0;              // replies around the one that is read
   const RibStatement* asking_ = nullptr;  // request to which the reply that is read belongs; null: none

@@ -232,6 +232,14 @@ TEST_F(RibDocumentTest, LightsOfRis) {
   EXPECT_NE(scene.warnings[0].message.find("PxrMeshLight"), std::string::npos);
 }
 
+TEST_F(RibDocumentTest, AnObjectIsNotDefinedAgainWithinItself) {
+  write("ObjectBegin 1 Sphere 1 -1 1 360 ObjectEnd", "again.rib");
+  EXPECT_THROW(
+      shot("Projection \"perspective\" WorldBegin ObjectBegin 1 ReadArchive \"again.rib\" Sphere 1 -1 1 "
+           "360 ObjectEnd ObjectInstance 1 WorldEnd"),
+      Error);
+}
+
 TEST_F(RibDocumentTest, BxdfsAndOpacity) {
   const std::string mesh = "PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0] ";
   const SceneDescription scene = shot(
