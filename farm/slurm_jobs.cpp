@@ -87,7 +87,8 @@ std::string task_script(const FarmPlan& plan, const SlurmParams& params) {
   return fmt::format(R"sh(#!/bin/bash
 # Runs one task of a shot: line $SLURM_ARRAY_TASK_ID of a list. Stops it before the time limit (SIGUSR1) and when the job
 # is cancelled (SIGTERM); both write a checkpoint. Queues it again if it was stopped or killed, but not if it was cancelled.
-folder={0} signalled= warned= cancelled=
+folder={0}
+signalled= warned= cancelled=   # whatever the job inherits
 read -r name command < <(sed -n "${{SLURM_ARRAY_TASK_ID}}p" "$1")
 [ "$command" ] || {{ echo "$1 has no line $SLURM_ARRAY_TASK_ID" >&2; exit 1; }}
 for file in jobs state "state/$name"; do
@@ -131,7 +132,8 @@ std::string submit_script(const FarmPlan& plan, const std::vector<SlurmJob>& job
 # Submits the tasks of a shot to Slurm, and notes the numbers of the jobs in `jobs`. SIGTERM stops it before the next
 # job. It does not reach sbatch, because a job that Slurm accepts must be noted.
 set -e
-folder={0} stopped=
+folder={0}
+stopped=   # whatever the caller has
 cd {1}
 trap 'stopped=1' TERM
 submit() {{   # NAME ELEMENTS DEPENDENCY OPTION...: sets $id
