@@ -81,8 +81,8 @@ class Cancelling {
 
 constexpr const char* kFolders[] = {"state", "logs", "tasks", "stats", "checkpoints", "pieces"};
 
-/// Refuses symbolic links in the folder of a shot, which scripts and Slurm would follow: whoever made one
-/// decides what is overwritten.
+/// Refuses symbolic links in the folder of a shot. Scripts and Slurm would follow them, so whoever made a
+/// link would choose the file that is overwritten.
 void refuse_links(const fs::path& folder) {
   std::error_code ignored;
   const auto check = [&](const fs::path& path) {
@@ -112,7 +112,7 @@ void write_shot(const SlurmShot& shot) {
   write("submit.sh", submit_script(shot.plan, shot.jobs, shot.params));
 }
 
-/// Cancels what was submitted before the user stopped the submission.
+/// Cancels the jobs that a stopped submission has already submitted.
 [[noreturn]] void undo_submission(const fs::path& folder) {
   std::string undone;
   try {

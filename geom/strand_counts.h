@@ -6,6 +6,8 @@
 
 namespace pelage {
 
+class Strands;
+
 /// Number of elements of a batch of strands, known before the batch is grown.
 struct StrandCounts {
   size_t strands = 0;
@@ -24,5 +26,8 @@ struct StrandCounts {
     return *this;
   }
 };
+
+/// Counts the elements of a batch that has been grown.
+StrandCounts counts_of(const Strands& strands);
 
 }  // namespace pelage

@@ -17,19 +17,6 @@ StrandScale scale_of(const Strands& strands) {
 
 }  // namespace
 
-StrandCounts counts_of(const Strands& strands) {
-  StrandCounts counts;
-  counts.strands = strands.strand_count();
-  counts.points = strands.point_count();
-  counts.motion_keys = static_cast<size_t>(strands.motion_keys());
-  for (size_t i = 0; i < counts.strands; ++i) {
-    counts.segments += segment_count(strands.basis(), strands.strand_points(i));
-    counts.longest = std::max<size_t>(counts.longest, strands.strand_points(i));
-  }
-  for (const StrandAttribute& a : strands.attributes()) counts.attribute_floats += a.values.size();
-  return counts;
-}
-
 FixedStrands::FixedStrands(Strands strands)
     : strands_(std::make_shared<const Strands>(std::move(strands))), scale_(scale_of(*strands_)) {}
 FixedStrands::FixedStrands(std::shared_ptr<const Strands> strands, const StrandScale& scale)

@@ -7,9 +7,6 @@
 
 namespace pelage {
 
-/// Returns the sizes of a batch.
-StrandCounts counts_of(const Strands& strands);
-
 /// Strands in memory, as a procedural that is a single leaf. The renderer copies the strands while they are a
 /// chunk. A chunk should have at most 8,000 strands; make several procedurals for more.
 class FixedStrands final : public Procedural {

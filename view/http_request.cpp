@@ -7,7 +7,7 @@
 namespace pelage {
 namespace {
 
-/// `spaces`: whether '+' stands for a space.
+/// Decodes %2F and the like. `spaces`: whether '+' means a space.
 std::string decoded(std::string_view text, bool spaces) {
   std::string result;
   for (size_t i = 0; i < text.size(); ++i) {

@@ -67,7 +67,7 @@ class LiveRenderer::Watch final : public FrameWatch {
   uint32_t pause_version() const override { return renderer_.state_.why().asked(); }
   void paused(const Film& film, const PassState& pass) override {
     if (!renderer_.state_.why().is_waiting()) return;
-    if (pass.grid > 0) publish(film, pass);  // so that the page shows what is explained
+    if (pass.grid > 0) publish(film, pass);  // the page must show the samples that the answer explains
     answer_questions(film, pass);
   }
 

@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kMaxNeighbours = 8;
 
-/// The smallest rotation from the normal of a guide's root to that of a strand's root.
+/// Turns vectors by the smallest rotation that takes the normal at a guide's root to the normal at a strand's
+/// root.
 class GuideRotation {
  public:
   GuideRotation() = default;

@@ -8,8 +8,8 @@
 
 #include "base/hash.h"
 #include "base/vector.h"
-#include "geom/cage_point.h"
 #include "geom/skin_pieces.h"
+#include "geom/surface_motion.h"
 #include "geom/view.h"
 #include "procedurals/bounds/procedural.h"
 

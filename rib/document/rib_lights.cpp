@@ -50,7 +50,11 @@ class LightBlock {
   const std::string& difference() const { return difference_; }
 
   std::optional<Value> make() {
-    for (int c = 0; c < 3; ++c) radiance_[c] = std::isfinite(radiance_[c]) ? std::max(radiance_[c], 0.0f) : 0;
+    for (int c = 0; c < 3; ++c) {
+      if (!std::isfinite(radiance_[c]))
+        difference_ = "is black, because its radiance is too large for a float";
+      radiance_[c] = std::isfinite(radiance_[c]) ? std::max(radiance_[c], 0.0f) : 0;
+    }
     if (!(light_.is_ris ? ris() : light_.shape == RibLight::Shape::kPoint ? by_name() : area())) return {};
     const bool visible = light_.visible && !contains("distant");
     if (visible || is("environment")) put("visible", visible ? "true" : "false");

@@ -28,7 +28,8 @@ Value rib_block(const RibSetting& setting);
 /// Returns the value of a setting: a text, a number or a list of numbers; nullopt for several texts.
 std::optional<Value> rib_setting(const RibSetting& setting);
 
-/// Returns the colour of a material without a shader: that of the strands, if they have any, or Color.
+/// Returns the colour of a material that has no shader: the colours of its strands if they have any,
+/// otherwise the colour of the request Color.
 Value rib_color(const RibMaterial& material, const SourcePosition& position);
 /// Adds the opacity of a material of strands to its block, if it is not 1.
 void add_opacity(Value& block, const RibMaterial& material, const SourcePosition& position);

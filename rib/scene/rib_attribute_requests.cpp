@@ -109,6 +109,9 @@ void RibInterpreter::use_coordinate_system(const Call& call) {
 void RibInterpreter::color(const Call& call) {
   const std::vector<float> n = numbers_of(call.request(), 3);
   now_.color = Rgb(n[0], n[1], n[2]);
+  for (int c = 0; c < 3; ++c) now_.color[c] = std::clamp(now_.color[c], 0.0f, 1.0f);
+  if (now_.color != Rgb(n[0], n[1], n[2]))
+    warn_once("clamped color", call.request().position(), "colours of surfaces are 0 to 1; clamped");
 }
 
 void RibInterpreter::opacity(const Call& call) {

@@ -71,8 +71,10 @@ void RibInterpreter::hider(const Call& call) {
 
 void RibInterpreter::shutter(const RibStatement& request, float open, float close) {
   if (!(open <= close)) request.fail("the shutter closes before it opens");
-  // Times are relative to the frame. A shutter that is more than a frame away has times of its own.
-  context_.time_base = std::abs(open) > 1 ? std::floor(open) : 0;
+  // Times are relative to the frame. A shutter that is not within a frame of 0 has absolute times: the frame
+  // is the one nearest to its middle, the earlier one of two.
+  const bool absolute = open < -1 || open >= 1 || close > 1;
+  context_.time_base = absolute ? std::ceil((open + close) / 2 - 0.5f) : 0;
   camera_.shutter =
       V2f(static_cast<float>(open - context_.time_base), static_cast<float>(close - context_.time_base));
 }

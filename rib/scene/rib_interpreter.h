@@ -33,7 +33,7 @@ struct RibAttributes {
   bool bilinear = false;         ///< Attribute "pelage" "scheme" "bilinear": polygons are bilinear surfaces
   bool seen_by_camera = true;    ///< Attribute "visibility" "camera"
   std::shared_ptr<const RibShader> surface;  ///< Surface or Bxdf
-  std::shared_ptr<const RibPatterns> patterns = std::make_shared<RibPatterns>();
+  std::shared_ptr<RibPatterns> patterns = std::make_shared<RibPatterns>();
   RibBasis basis_u = *RibBasis::named("bezier"), basis = basis_u;  ///< curves have the second one, for v
   std::string name;                                                ///< Attribute "identifier" "name"
   std::shared_ptr<const RibShader> area;  ///< AreaLightSource; null for things that are not lights

@@ -33,9 +33,9 @@ void RibInterpreter::pattern(const Call& call) {
   if (request.arguments.size() < 2 || request.arguments[1].strings.size() != 1)
     request.fail("expected a type and a handle");
   const std::string handle = request.arguments[1].strings[0];
-  auto patterns = std::make_shared<RibPatterns>(*now_.patterns);
-  (*patterns)[handle] = shader_of(request, 2);
-  now_.patterns = std::move(patterns);
+  // Blocks share the patterns of the blocks around them until they have one of their own.
+  if (now_.patterns.use_count() > 1) now_.patterns = std::make_shared<RibPatterns>(*now_.patterns);
+  (*now_.patterns)[handle] = shader_of(request, 2);
 }
 
 /// Returns the value of a parameter that a pattern computes; empty if Pelage does not know it. A primitive

@@ -73,7 +73,7 @@ class PatchReader {
               const RibBasis& v)
       : request_(request), declarations_(declarations), bases_{u, v} {}
 
-  ControlMesh read() {
+  RibGrid read() {
     size_t parameters = 1;
     if (request_.name == "NuPatch") {
       for (size_t axis = 0; axis < 2; ++axis) read_spline(axis, 5 * axis);
@@ -96,7 +96,7 @@ class PatchReader {
     read_points(parameters);
     const auto size = [&](size_t axis) { return static_cast<int>(direction_[axis].size()) - 1; };
     if (int64_t{size(0)} * size(1) > kMaxFaces) request_.fail("the surface has too many segments");
-    return grid_mesh(size(0), size(1), [&](int column, int row) {
+    return RibGrid(size(0), size(1), [&](int column, int row) {
       return point(direction_[0][static_cast<size_t>(column)], direction_[1][static_cast<size_t>(row)]);
     });
   }
@@ -183,15 +183,13 @@ class PatchReader {
 
 RibMesh read_patches(std::span<RibStatement> samples, const RibDeclarations& declarations, const RibBasis& u,
                      const RibBasis& v) {
-  RibMesh mesh;
+  std::vector<RibGrid> grids;
   for (RibStatement& sample : samples) {
-    ControlMesh cage = PatchReader(sample, declarations, u, v).read();
-    mesh.samples.push_back(cage.positions);
-    if (mesh.samples.size() == 1) mesh.cage = std::move(cage);
-    if (mesh.samples.back().size() != mesh.cage.positions.size())
+    grids.push_back(PatchReader(sample, declarations, u, v).read());
+    if (grids.back().columns != grids[0].columns || grids.back().rows != grids[0].rows)
       sample.fail("the patches of a motion block must have the same number of points");
   }
-  return mesh;
+  return grid_mesh(grids);
 }
 
 }  // namespace pelage

@@ -65,12 +65,12 @@ V2d profile(const std::string& name, const std::vector<double>& n, double v) {
   return std::abs(n[0]) * at;
 }
 
-ControlMesh quadric(const RibStatement& request) {
+RibGrid quadric(const RibStatement& request) {
   const std::string& name = request.name;
   const bool hyperboloid = name == "Hyperboloid";
   const size_t count = hyperboloid ? 7 : name == "Torus" ? 5 : name == "Cone" || name == "Disk" ? 3 : 4;
   const std::vector<double> n = sizes_of(request, count);
-  return grid_mesh(kAround, kAlong, [&](int column, int row) {
+  return RibGrid(kAround, kAlong, [&](int column, int row) {
     const double v = row / double{kAlong};
     const V2d turn = direction(n.back() * column / kAround);
     V2d at(0);
@@ -90,14 +90,9 @@ ControlMesh quadric(const RibStatement& request) {
 }  // namespace
 
 RibMesh read_quadric(std::span<RibStatement> samples) {
-  RibMesh mesh;
-  mesh.cage = quadric(samples.front());
-  for (const RibStatement& sample : samples) {
-    mesh.samples.push_back(quadric(sample).positions);
-    if (mesh.samples.back().size() != mesh.cage.positions.size())
-      sample.fail("a quadric of a motion block may not lose its poles or seams");
-  }
-  return mesh;
+  std::vector<RibGrid> grids;
+  for (const RibStatement& sample : samples) grids.push_back(quadric(sample));
+  return grid_mesh(grids);
 }
 
 }  // namespace pelage

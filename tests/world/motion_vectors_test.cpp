@@ -12,8 +12,8 @@ namespace {
 
 class MotionVectors : public testing::Test {
  protected:
-  /// Compares the vectors of all pixels with those of the motion `next` of what is to the right of the still
-  /// cube. Returns how many pixels of strands and of skins moved.
+  /// Renders the scene. Compares the motion vectors that are not 0 with `next`, which moves a point to its
+  /// place in the next frame. Returns how many pixels of strands and of skins have such a vector.
   V2f check(const std::string& scene_path, std::vector<Override> overrides, double frame,
             const std::function<V3f(const V3f&)>& next) {
     QuietJob job;

@@ -74,8 +74,21 @@ TEST(RibReading, MotionOfTransformsAndOfPoints) {
       "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 0 3 0] \"constantwidth\" 0.1 ";
   scene = read("MotionBegin [0 0.5] " + kHair + moved + "MotionEnd", options);
   expect_near(tips(scene, 1)[0], {0, 3, 0});
-  scene = read("Shutter 24 24.5 MotionBegin [24 24.5] " + kHair + moved + "MotionEnd", options);
-  expect_near(tips(scene, 1)[0], {0, 3, 0});
+  for (const std::string times : {"24 24.5", "1 1.5", "2 2.5"}) {
+    scene = read("Shutter " + times + " WorldBegin MotionBegin [" + times + "] " + kHair + moved +
+                     "MotionEnd WorldEnd",
+                 options);
+    ASSERT_TRUE(scene.camera.shutter);
+    EXPECT_EQ(*scene.camera.shutter, V2f(0, 0.5f)) << times;
+    expect_near(tips(scene, 1)[0], {0, 3, 0});
+  }
+  for (const std::string times : {"-0.25 0.25", "23.75 24.25", "0.75 1.25"}) {
+    scene = read("Shutter " + times + " WorldBegin WorldEnd");
+    ASSERT_TRUE(scene.camera.shutter);
+    EXPECT_EQ(*scene.camera.shutter, V2f(-0.25f, 0.25f)) << times;
+  }
+  scene = read("Shutter 24 25 WorldBegin WorldEnd");
+  EXPECT_EQ(*scene.camera.shutter, V2f(0, 1));
   EXPECT_EQ(read("MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd " + kHair)
                 .coats[0]
                 .batches[0]

@@ -74,6 +74,19 @@ TEST(RibSurfaces, QuadricsMove) {
 const std::string kFlat =
     "\"P\" [0 0 0 1 0 0 2 0 0 3 0 0 0 1 0 1 1 0 2 1 0 3 1 0 0 2 0 1 2 0 2 2 0 3 2 0 0 3 0 1 3 0 2 3 0 3 3 0]";
 
+TEST(RibSurfaces, VerticesAreThoseOfAllSamples) {
+  // A sphere that closes while the shutter is open.
+  const RibMesh closing = quadric("Sphere 1 -1 1 350 Sphere 1 -1 1 360");
+  EXPECT_EQ(closing.samples[0].size(), closing.samples[1].size());
+  EXPECT_EQ(closing.cage.positions.size(), quadric("Sphere 1 -1 1 350").cage.positions.size());
+  // Different corners meet at the two times: no vertex has both positions of another.
+  const RibMesh patch = patches(
+      "Patch \"bilinear\" \"P\" [0 0 0 0 0 0 0 1 0 1 1 0] Patch \"bilinear\" \"P\" [0 0 0 1 0 0 1 1 0 1 1 "
+      "0]");
+  ASSERT_EQ(patch.samples[0].size(), 4u);
+  EXPECT_EQ(patch.samples[1], (std::vector<V3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}}));
+}
+
 TEST(RibSurfaces, PatchesInterpolateTheirBasis) {
   const Box3f bezier = box_of(patches("Patch \"bicubic\" " + kFlat).cage);
   EXPECT_EQ(bezier.min, V3f(0));

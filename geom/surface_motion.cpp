@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/cage_point.h"
+#include "geom/surface_motion.h"
 
 #include <cmath>
 
