@@ -23,14 +23,13 @@ const Schema<ImageParams>& ImageParams::schema() {
            .default_text = "drawn; splatted with `integrator: gather`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
-    s.key(
-        "event_layers", &ImageParams::event_layers,
-        {.help = "Adds two layers for each light and lobe, light.lobe.direct and light.lobe.indirect, which "
-                 "add up to light.lobe. Direct light reaches the first visible surface straight from the "
-                 "light source; indirect light was scattered at least once on its way there. Light sources "
-                 "that the camera sees stay in the layer light.emission. With `integrator: gather`, both "
-                 "layers can be slightly negative where there is little light. Needs `light_layers`; the "
-                 "film takes up to twice the memory"});
+    s.key("event_layers", &ImageParams::event_layers,
+          {.help =
+               "Adds two layers for each light and lobe, light.lobe.direct and light.lobe.indirect, which "
+               "add up to light.lobe. Direct light reaches the first visible surface straight from the "
+               "light source; indirect light was scattered at least once on its way there. Light sources "
+               "that the camera sees stay in the layer light.emission. Needs `light_layers`; the film takes "
+               "up to twice the memory"});
     s.key(
         "noise_layers", &ImageParams::noise_layers,
         {.help =

@@ -148,9 +148,11 @@ TEST(Film, WritesEveryChannelByItsName) {
   EXPECT_EQ(image.channels.size(), 4u + 15 + 1 + 3 + 3 + 2 + 2 + 2);
 }
 
-// Samples that share light may be negative; what is written is not, and its layers still add up.
+// Samples that share light may be negative; what is written is not, and its layers still add up. Direct and
+// indirect parts change no layer.
 TEST(Film, WritesNoNegativeLight) {
   MemoryLedger ledger;
+  std::vector<std::vector<float>> undivided;
   for (const bool events : {false, true}) {
     const FilmLayers layers = FilmLayers::make({{"key", false}, {"sky", true}}, 2, events);
     Film film(2, 1, layers, ledger);
@@ -162,14 +164,20 @@ TEST(Film, WritesNoNegativeLight) {
       sample.radiance = x == 1 ? Rgb(-0.75f) : Rgb(1.75f);
       for (int g = 0; events && g < 2; ++g) {
         by_layer[layers.direct(0, g)] = Rgb(0.25f);
-        by_layer[layers.direct(1, g)] = Rgb(0.125f);
+        by_layer[layers.direct(1, g)] = Rgb(g == 0 ? 0.125f : 0.75f);  // indirect light below zero
       }
       film.add(x, 0, sample, by_layer);
     }
     const ExrImage image = picture_of(film);
     double sum = 0;
+    size_t layer = 0;
     for (const ExrChannel& channel : image.channels) {
       if (channel.type != ChannelType::kHalf) continue;
+      if (!events) {
+        undivided.push_back(channel.pixels);
+      } else if (layer < undivided.size()) {
+        EXPECT_EQ(channel.pixels, undivided[layer++]) << channel.name;
+      }
       EXPECT_GE(channel.pixels[0], 0) << channel.name;
       EXPECT_GE(channel.pixels[1], 0) << channel.name;
     }
