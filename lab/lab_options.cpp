@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -74,6 +75,35 @@ void add_experiment_flags(CLI::App& measure, LabOptions& options) {
                   "shading: samples of the two reference pictures (default: 256)")
       ->check(CLI::Range(1, 1 << 20))
       ->type_name("N");
+  measure
+      .add_option("--flicker-samples", options.flicker_samples,
+                  "shading: those of --samples whose flicker is measured over 8 frames (default: the "
+                  "smallest); 0: none")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 1 << 20))
+      ->type_name("N,N");
+}
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void interpret_samples(LabOptions& options) {
+  sort_unique(options.samples);
+  std::vector<int>& flicker = options.flicker_samples;
+  sort_unique(flicker);
+  if (flicker.empty()) {
+    flicker = {options.samples.front()};
+  } else if (flicker == std::vector<int>{0}) {
+    flicker.clear();
+  }
+  for (const int samples : flicker) {
+    if (!std::binary_search(options.samples.begin(), options.samples.end(), samples))
+      fail_arguments(fmt::format("--flicker-samples: {} is not one of --samples {}", samples,
+                                 fmt::join(options.samples, ",")));
+  }
 }
 
 /// Values of flags that are still text.
@@ -123,8 +153,7 @@ void interpret(const LabTexts& texts, LabOptions& options) {
   interpret_run(texts, options);
   if (!texts.experiment.empty()) options.experiment = parse_experiment(texts.experiment);
   check_parts(options.experiment, options.parts);
-  std::sort(options.samples.begin(), options.samples.end());
-  options.samples.erase(std::unique(options.samples.begin(), options.samples.end()), options.samples.end());
+  interpret_samples(options);
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ struct LabOptions : RunOptions {
   /// For `measure shading`: samples per pixel, one run of each variant per count.
   std::vector<int> samples{4, 16, 64};
   int reference_samples = 256;  ///< measure shading: samples per pixel of the two reference pictures
+  /// For `measure shading`: those of `samples` whose flicker is measured, ascending. The smallest of
+  /// `samples` by default; none with --flicker-samples 0.
+  std::vector<int> flicker_samples;
 
   std::vector<std::string> models;  ///< compare: --models; empty: all models
 };

@@ -41,7 +41,8 @@ MeasureSetup setup_of(const LabOptions& options, const SceneDescription& scene) 
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
   // Pictures, timelines and counts are compared for a single frame.
-  setup.arguments.insert(setup.arguments.end(), {"--frames", fmt::format("{}", scene.frames.frames.front())});
+  setup.arguments.insert(setup.arguments.end(),
+                         {"--set", fmt::format("frames={}", scene.frames.frames.front())});
   if (options.threads > 0)
     setup.arguments.insert(setup.arguments.end(), {"--threads", std::to_string(options.threads)});
   return setup;
@@ -69,8 +70,9 @@ Measured run_experiment(const LabOptions& options, const SceneDescription& scene
     case Experiment::kSamplers:
       return measure_samplers(scene, setup, display);
     case Experiment::kShading:
-      return measure_shading(scene, {options.samples, options.reference_samples, options.parts}, setup,
-                             display);
+      return measure_shading(
+          scene, {options.samples, options.reference_samples, options.flicker_samples, options.parts}, setup,
+          display);
     case Experiment::kBounces:
       return measure_bounces(scene, options.samples.back(), setup, display);
     case Experiment::kLod:
@@ -103,6 +105,10 @@ int run_measure(const LabOptions& options) {
   if (options.experiment == Experiment::kShading) {
     command.insert(command.end(), {"--samples", fmt::format("{}", fmt::join(options.samples, ",")),
                                    "--reference-samples", std::to_string(options.reference_samples)});
+    command.insert(
+        command.end(),
+        {"--flicker-samples",
+         options.flicker_samples.empty() ? "0" : fmt::format("{}", fmt::join(options.flicker_samples, ","))});
     if (!options.parts.empty())
       command.insert(command.end(), {"--parts", fmt::format("{}", fmt::join(options.parts, ","))});
   }

@@ -15,4 +15,8 @@ using ErrorCurve = std::vector<std::pair<double, double>>;
 /// NaN if no two successive points enclose `error`, because it does not extrapolate.
 double cpu_s_to(ErrorCurve curve, double error);
 
+/// Returns the error after `cpu_s` CPU seconds, interpolated in the same way. NaN before the first and after
+/// the last point.
+double error_after(ErrorCurve curve, double cpu_s);
+
 }  // namespace pelage

@@ -38,13 +38,15 @@ struct ShadingPlan {
   /// Samples per pixel, ascending; each way to render is measured with each of these counts.
   std::vector<int> samples{4, 16, 64};
   int reference_samples = 256;  ///< samples per pixel of the two reference pictures
+  /// Those of `samples` with which each way to render also renders a sequence, to measure its flicker.
+  std::vector<int> flicker_samples;
   /// Ways to render, from kShadingParts (lab/measure/shading_curves.h); empty: all.
   std::vector<std::string> parts;
 };
 
-/// Compares variants of the integrators `path` and `gather`. Reports the error as a function of CPU time, the
-/// bias, and the numbers of rays and gather points (points on surfaces whose light `gather` shares among
-/// samples).
+/// Compares variants of the integrators `path` and `gather`. Reports the error of pixels and of blocks as a
+/// function of CPU time, the error that seeds share, flicker, and the numbers of rays and gather points
+/// (points on surfaces whose light `gather` shares among samples).
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 

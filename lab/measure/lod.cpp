@@ -12,6 +12,7 @@
 #include "lab/measure/lod_crowd.h"
 #include "lab/measure/lod_pictures.h"
 #include "lab/pictures/picture_error.h"
+#include "lab/pictures/systematic_error.h"
 #include "lab/runs/outcome_table.h"
 
 namespace pelage {
@@ -29,8 +30,9 @@ constexpr size_t kSheetRows = 3;
 struct Row {
   std::string part;
   int full = -1;
-  PictureError error;
+  PictureError error = {};
   bool known = false;
+  SystematicError systematic = {};
 };
 
 Variant variant_of(const std::string& id, const std::string& title, const Settings& settings, bool enabled,
@@ -151,9 +153,12 @@ class LodSweep {
       const auto at = [&](int i) { return runner_.picture(outcomes[static_cast<size_t>(i)].variant); };
       const auto error =
           picture_error_of_files(at(first), at(first + 1), at(full), at(full + 1), ErrorRegion::kSurfaces);
+      const auto systematic =
+          systematic_error_of_files(at(first), at(first + 1), at(full), at(full + 1), ErrorRegion::kSurfaces);
       for (size_t i = static_cast<size_t>(first); i < outcomes.size(); ++i) {
         rows[i].known = error.has_value();
         rows[i].error = error.value_or(PictureError{});
+        rows[i].systematic = systematic.value_or(SystematicError{});
       }
     }
     return first;
@@ -223,13 +228,17 @@ void add_detail(const LodSweep& sweep, Report& report) {
            "Every view of the scene is rendered twice with full detail and twice with reduced detail, "
            "all four with different seeds: x, y and a, b. relMSE is the mean over pixels with alpha "
            "of (x - a)(y - b) / (t^2 + 0.01 m^2), where t is the mean of a and b over 9 x 9 pixels "
-           "and m its mean over these pixels: the error common to both pictures, without noise. Bias is "
+           "and m its mean over these pixels: the error common to both pictures, without noise; of 4 x 4 and "
+           "16 x 16: of means of so many pixels. Off: the root of the mean of (x - a)(y - b) / (t^2 + 0.01 "
+           "m^2) "
+           "over means of 8 x 8 or 32 x 32 pixels, and the error of the worst block. Bias is "
            "the error of the mean luminance over these pixels. Fractions are relative to full detail "
            "from the same place. Naive thinning removes the same strands and does not widen the "
            "others. Other hairs: the same coats with another seed, at full detail."}}});
   Table details = select(report.data,
                          {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "hairs", "hairs_share",
-                          "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},
+                          "working_set_bytes", "set_share", "cpu_share", "rel_mse", "rel_mse_4", "rel_mse_16",
+                          "systematic_8", "worst_8", "systematic_32", "worst_32", "bias"},
                          "By place and idea; each place twice.");
   Table table = details;
   table.rows.clear();
@@ -274,6 +283,18 @@ Measured measure_lod(const SceneDescription& scene, const std::vector<std::strin
   add("cpu_share", "CPU time", Quantity::kPercent, share("cpu_s"));
   add("rel_mse", "relMSE", Quantity::kRatio,
       [](const Outcome&, const Row& row) { return row.known ? row.error.rel_mse : NAN; });
+  add("rel_mse_4", "of 4 x 4", Quantity::kRatio,
+      [](const Outcome&, const Row& row) { return row.known ? row.error.rel_mse_4 : NAN; });
+  add("rel_mse_16", "of 16 x 16", Quantity::kRatio,
+      [](const Outcome&, const Row& row) { return row.known ? row.error.rel_mse_16 : NAN; });
+  add("systematic_8", "8 x 8 off", Quantity::kError,
+      [](const Outcome&, const Row& row) { return row.systematic.of_8.rms; });
+  add("worst_8", "worst 8 x 8", Quantity::kError,
+      [](const Outcome&, const Row& row) { return row.systematic.of_8.worst; });
+  add("systematic_32", "32 x 32 off", Quantity::kError,
+      [](const Outcome&, const Row& row) { return row.systematic.of_32.rms; });
+  add("worst_32", "worst 32 x 32", Quantity::kError,
+      [](const Outcome&, const Row& row) { return row.systematic.of_32.worst; });
   add("bias", "bias", Quantity::kPercent,
       [](const Outcome&, const Row& row) { return row.known ? row.error.bias : NAN; });
 

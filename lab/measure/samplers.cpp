@@ -137,6 +137,9 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
   add("surface_samples", "on surfaces", Quantity::kRatio,
       [](const Row& r) { return r.error.region_samples; });
   add("rel_mse", "relMSE", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse; });
+  add("rel_mse_4", "of 4 x 4", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse_4; });
+  add("rel_mse_16", "of 16 x 16", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse_16; });
+  add("top_error", "99.9th percentile", Quantity::kPercent, [](const Row& r) { return r.error.top_error; });
   add("bias", "bias", Quantity::kPercent, [](const Row& r) { return r.error.bias; });
   add("gain", "fewer samples", Quantity::kRatio,
       [&](const Row& r) { return gain(sweep.rows, r, r.error.samples); });
@@ -154,7 +157,10 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "same number of samples in every pixel; their noise is the noise budget of the adaptive pictures, "
            "whose pixels get at most {}. All pictures have different seeds. relMSE is the mean over pixels "
            "with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two references, t is "
-           "their mean over 9 x 9 pixels and m the mean of t. Fewer samples: the samples that plain sampling "
+           "their mean over 9 x 9 pixels and m the mean of t; of 4 x 4 and 16 x 16: of means of so many "
+           "pixels. "
+           "The 99.9th percentile is the error that one pixel in a thousand exceeds. Fewer samples: the "
+           "samples that plain sampling "
            "needs for the "
            "same relMSE, divided by the samples taken, over all pixels and over pixels with alpha. Bias is "
            "the error of the mean luminance over these pixels. A rule that knew the variance of every pixel "
@@ -165,12 +171,13 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "blocked. What these rays miss is lost, which the bias shows.",
            kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
            sweep.best.all)}}});
-  report.sections.push_back({"Samples",
-                             {select(report.data,
-                                     {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "noise",
-                                      "samples", "surface_samples", "rel_mse", "bias", "gain", "surface_gain",
-                                      "inverse_surface_share", "inverse_coverage"},
-                                     "Samples and error.")}});
+  report.sections.push_back(
+      {"Samples",
+       {select(report.data,
+               {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "noise", "samples",
+                "surface_samples", "rel_mse", "rel_mse_4", "rel_mse_16", "top_error", "bias", "gain",
+                "surface_gain", "inverse_surface_share", "inverse_coverage"},
+               "Samples and error.")}});
   return measured;
 }
 

@@ -14,13 +14,31 @@
 namespace pelage {
 namespace {
 
-ErrorCurve curve_of(const ShadingRuns& all, size_t curve) {
+/// An error of a picture, and the end of the keys of its columns.
+struct ErrorScale {
+  double PictureError::*error;
+  std::string suffix, title;
+};
+const std::vector<ErrorScale>& error_scales() {
+  static const std::vector<ErrorScale> all{{&PictureError::rel_mse, "", "of pixels"},
+                                           {&PictureError::rel_mse_4, "_4", "of 4 x 4"},
+                                           {&PictureError::rel_mse_16, "_16", "of 16 x 16"}};
+  return all;
+}
+
+ErrorCurve curve_of(const ShadingRuns& all, size_t curve, double PictureError::*error) {
   ErrorCurve points;
   for (const ShadingRun& run : all.runs) {
     // A second picture of another seed would count its number of samples twice.
-    if (run.curve == curve && run.error && !run.second) points.emplace_back(run.cpu_s(), run.error->rel_mse);
+    if (run.curve == curve && run.error && !run.extra) points.emplace_back(run.cpu_s(), (*run.error).*error);
   }
   return points;
+}
+
+/// The largest CPU time that pictures of both curves reach.
+double common_cpu_s(const ErrorCurve& a, const ErrorCurve& b) {
+  if (a.empty() || b.empty()) return NAN;
+  return std::min(std::max_element(a.begin(), a.end())->first, std::max_element(b.begin(), b.end())->first);
 }
 
 class Columns {
@@ -40,10 +58,16 @@ class Columns {
     add(key, title, Quantity::kError,
         [&](const ShadingRun& run) { return run.error ? value(*run.error) : NAN; });
   }
+  /// A number of the error that two seeds share, or NaN.
   template <class Value>
-  void add_reuse(const std::string& key, const std::string& title, const Value& value) {
+  void add_shared(const std::string& key, const std::string& title, const Value& value) {
     add(key, title, Quantity::kError,
-        [&](const ShadingRun& run) { return run.reuse ? value(*run.reuse) : NAN; });
+        [&](const ShadingRun& run) { return run.shared ? value(*run.shared) : NAN; });
+  }
+  template <class Value>
+  void add_systematic(const std::string& key, const std::string& title, const Value& value) {
+    add(key, title, Quantity::kError,
+        [&](const ShadingRun& run) { return run.systematic ? value(*run.systematic) : NAN; });
   }
   void add_number(const std::string& key, const std::string& title, const std::string& path) {
     add(key, title, Quantity::kCount, [&](const ShadingRun& run) { return run.outcome.number(path); });
@@ -64,13 +88,21 @@ void add_errors(const ShadingRuns& all, Columns& columns) {
   columns.add_error("rel_mse", "relMSE", [](const PictureError& e) { return e.rel_mse; });
   columns.add_error("rel_mse_deviation", "standard error",
                     [](const PictureError& e) { return e.rel_mse_deviation; });
-  columns.add_error("block_rel_mse", "relMSE of 4 x 4",
-                    [](const PictureError& e) { return e.block_rel_mse; });
+  columns.add_error("rel_mse_4", "relMSE of 4 x 4", [](const PictureError& e) { return e.rel_mse_4; });
+  columns.add_error("rel_mse_16", "relMSE of 16 x 16", [](const PictureError& e) { return e.rel_mse_16; });
+  columns.add_error("top_error", "99.9th percentile", [](const PictureError& e) { return e.top_error; });
   columns.add_error("bias", "mean off", [](const PictureError& e) { return e.bias; });
-  columns.add_reuse("reuse_bias", "bias of reuse", [](const PictureError& e) { return e.rel_mse; });
-  columns.add_reuse("reuse_bias_deviation", "its standard error",
-                    [](const PictureError& e) { return e.rel_mse_deviation; });
-  columns.add_reuse("reuse_mean", "mean of both off", [](const PictureError& e) { return e.bias; });
+  columns.add_systematic("systematic_8", "systematic error of 8 x 8",
+                         [](const SystematicError& e) { return e.of_8.rms; });
+  columns.add_systematic("worst_8", "worst 8 x 8", [](const SystematicError& e) { return e.of_8.worst; });
+  columns.add_systematic("systematic_32", "systematic error of 32 x 32",
+                         [](const SystematicError& e) { return e.of_32.rms; });
+  columns.add_systematic("worst_32", "worst 32 x 32", [](const SystematicError& e) { return e.of_32.worst; });
+  columns.add("flicker", "flicker", Quantity::kError, [](const ShadingRun& run) { return run.flicker; });
+  columns.add_shared("reuse_bias", "bias of reuse", [](const PictureError& e) { return e.rel_mse; });
+  columns.add_shared("reuse_bias_deviation", "its standard error",
+                     [](const PictureError& e) { return e.rel_mse_deviation; });
+  columns.add_shared("reuse_mean", "mean of both off", [](const PictureError& e) { return e.bias; });
 }
 
 void add_work(Columns& columns) {
@@ -100,7 +132,7 @@ void add_work(Columns& columns) {
 
 void add_times(const ShadingRuns& all, Columns& columns) {
   std::vector<ErrorCurve> curves;
-  for (size_t i = 0; i < all.curves.size(); ++i) curves.push_back(curve_of(all, i));
+  for (size_t i = 0; i < all.curves.size(); ++i) curves.push_back(curve_of(all, i, &PictureError::rel_mse));
   const auto add = [&](const std::string& key, const std::string& title, Quantity quantity,
                        const auto& value) {
     columns.add(key, title, quantity,
@@ -114,6 +146,24 @@ void add_times(const ShadingRuns& all, Columns& columns) {
     add(fmt::format("gain_at_{}", percent), fmt::format("gain at {} %", percent), Quantity::kRatio,
         [&](const ErrorCurve& curve) {
           return cpu_s_to(curves.front(), percent / 100.0) / cpu_s_to(curve, percent / 100.0);
+        });
+  }
+}
+
+/// Errors of `path`, divided by those of each curve after the same CPU time.
+void add_equal_times(const ShadingRuns& all, Columns& columns) {
+  const auto add = [&](const std::string& key, const std::string& title, Quantity quantity,
+                       double PictureError::*error, const auto& value) {
+    columns.add(key, title, quantity, [&](const ShadingRun& run) {
+      return run.last ? value(curve_of(all, 0, error), curve_of(all, *run.curve, error)) : NAN;
+    });
+  };
+  add("equal_cpu_s", "CPU time", Quantity::kSeconds, &PictureError::rel_mse, common_cpu_s);
+  for (const ErrorScale& scale : error_scales()) {
+    add("equal_gain" + scale.suffix, scale.title, Quantity::kRatio, scale.error,
+        [](const ErrorCurve& path, const ErrorCurve& curve) {
+          const double cpu_s = common_cpu_s(path, curve);
+          return error_after(path, cpu_s) / error_after(curve, cpu_s);
         });
   }
 }
@@ -132,6 +182,7 @@ Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan,
   add_errors(all, columns);
   add_work(columns);
   add_times(all, columns);
+  add_equal_times(all, columns);
   add_shading_sections(all, plan, setup.folder, report);
   return measured;
 }

@@ -44,7 +44,7 @@ LinePlot plot_of(const ShadingRuns& all, double PictureError::*error, const std:
   for (size_t i = 0; i < all.curves.size(); ++i) {
     Series line{all.curves[i].title, {}};
     for (const ShadingRun& run : all.runs) {
-      if (run.curve == i && run.error && !run.second)
+      if (run.curve == i && run.error && !run.extra)
         line.points.emplace_back(run.cpu_s(), (*run.error).*error);
     }
     std::sort(line.points.begin(), line.points.end());
@@ -79,8 +79,12 @@ std::string method_text(const ShadingPlan& plan, const std::string& same_as_gath
       "The references a and b are two splatted pictures of path with {}. Every picture has a seed of its "
       "own. relMSE of a picture x is the mean over pixels with fur (layer tangent not 0) and channels of "
       "(x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the "
-      "mean of t; the noise of the references cancels. relMSE of 4 x 4 is the same of means of 4 x 4 "
-      "pixels. Mean off is the error of the mean luminance of fur. CPU seconds count the whole "
+      "mean of t; the noise of the references cancels. relMSE of 4 x 4 and of 16 x 16 is the same of means "
+      "of "
+      "so many pixels, with t over 3 x 3 means. The 99.9th percentile is the relative error that one pixel "
+      "of "
+      "fur in a thousand exceeds. Mean off is the error of the mean luminance of fur. CPU seconds count the "
+      "whole "
       "process, growth included; caches of boxes and operators are warm. Where sampling is adaptive, its "
       "noise budget is the noise of path with the stated number of samples, and a pixel may get 16 times "
       "as many.",
@@ -96,7 +100,7 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
       "Differences, times ten",
       {Paragraph{"The mean of two pictures of the variant, with most samples and other seeds, minus the "
                  "mean of both references, times ten: grey where they are equal, light where the variant "
-                 "is brighter. Of path, only one picture is shown, as a comparison: its noise."}}};
+                 "is brighter. Path has only noise."}}};
   const auto add = [&](std::optional<Picture> picture) {
     if (!picture) return;
     picture->half = true;
@@ -110,7 +114,7 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
     if (!curve.gather && curve.id != "path") continue;
     if (curve.id == "gather") add(screen_picture_of(run.picture, kMaxWidth, run.outcome.variant.title + "."));
     std::vector<std::filesystem::path> pictures{run.picture};
-    if (run.reuse) pictures.push_back(run.other);
+    if (run.shared) pictures.push_back(run.other);
     auto difference = scaled_difference_of_files(pictures, all.references, kFactor,
                                                  run.outcome.variant.title + ", times ten.");
     if (difference)
@@ -121,18 +125,11 @@ Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder)
   return section;
 }
 
-}  // namespace
+/// The columns of the report with these keys, of some of the runs.
+using Tables = std::function<Table(const Wanted&, const std::vector<std::string>&, const char* caption)>;
 
-void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
-                          const std::filesystem::path& folder, Report& report) {
-  const auto table = [&](const Wanted& wanted, const std::vector<std::string>& keys, const char* caption) {
-    return table_of(all, report, wanted, keys, caption);
-  };
+void add_time_sections(const ShadingRuns& all, const Tables& table, Report& report) {
   const Wanted is_last = [](const ShadingRun& run) { return run.last; };
-  const Wanted is_gather = [&](const ShadingRun& run) { return run.reuse.has_value(); };
-  const Wanted is_measured = [](const ShadingRun& run) { return run.curve.has_value(); };
-  report.abstract = gain_text(all, report);
-  report.sections.push_back({"Method", {Paragraph{method_text(plan, all.same_as_gather)}}});
   report.sections.push_back(
       {"Time to an error",
        {table(is_last,
@@ -140,21 +137,60 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
               "CPU seconds to 5, 2 and 1 % relMSE, interpolated between the runs in logarithms of both; "
               "nothing is extrapolated. Gain: the time of path, divided by the time of the variant."),
         plot_of(all, &PictureError::rel_mse, "relMSE", "Error of pixels with fur over CPU time."),
-        plot_of(all, &PictureError::block_rel_mse, "relMSE of 4 x 4",
-                "Error of means of 4 x 4 pixels over CPU time.")}});
-  if (std::any_of(all.runs.begin(), all.runs.end(), is_gather)) {
+        plot_of(all, &PictureError::rel_mse_4, "relMSE of 4 x 4",
+                "Error of means of 4 x 4 pixels over CPU time."),
+        plot_of(all, &PictureError::rel_mse_16, "relMSE of 16 x 16",
+                "Error of means of 16 x 16 pixels over CPU time.")}});
+  report.sections.push_back(
+      {"At equal CPU time",
+       {table(
+           is_last, {"curve", "equal_cpu_s", "equal_gain", "equal_gain_4", "equal_gain_16"},
+           "relMSE of path, divided by relMSE of the variant after the same CPU time: the largest time that "
+           "both have reached. Both are interpolated between the runs. A ratio below 1 is a loss.")}});
+}
+
+void add_shared_sections(const ShadingRuns& all, const Tables& table, Report& report) {
+  const Wanted is_shared = [](const ShadingRun& run) { return run.shared.has_value(); };
+  const Wanted has_flicker = [](const ShadingRun& run) { return std::isfinite(run.flicker); };
+  if (std::any_of(all.runs.begin(), all.runs.end(), is_shared)) {
     report.sections.push_back(
-        {"Bias of reuse",
-         {table(is_gather, {"variant", "reuse_bias", "reuse_bias_deviation", "reuse_mean"},
-                "The part of relMSE that is no noise: the mean of (x - a)(y - b) / (t^2 + 0.01 m^2), where x "
-                "and y are two pictures with other seeds. Its root is a relative error. The row of reuse: "
-                "false has no bias and shows the noise of this estimate. Mean of both off: error of the mean "
-                "luminance of fur.")}});
+        {"Systematic error",
+         {table(is_shared, {"variant", "systematic_8", "worst_8", "systematic_32", "worst_32"},
+                "The error of means of 8 x 8 and 32 x 32 pixels that two pictures x and y with other seeds "
+                "share: the root of the mean of (x - a)(y - b) / (t^2 + 0.01 m^2), and the error of the "
+                "worst block. Noise does not count. The row of path has no such error and shows the "
+                "uncertainty of these estimates."),
+          table(is_shared, {"variant", "reuse_bias", "reuse_bias_deviation", "reuse_mean"},
+                "The part of relMSE of pixels that is no noise, for the same x and y. Its root is a relative "
+                "error. Mean of both off: error of the mean luminance of fur.")}});
   }
+  if (std::any_of(all.runs.begin(), all.runs.end(), has_flicker)) {
+    report.sections.push_back(
+        {"Flicker",
+         {table(
+             has_flicker, {"variant", "samples", "flicker"},
+             "Change of means of 8 x 8 pixels from one frame to the next that is not in the references, "
+             "relative to the picture (root mean square), over 8 frames. In each frame, the camera moves by "
+             "one pixel.")}});
+  }
+}
+
+}  // namespace
+
+void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
+                          const std::filesystem::path& folder, Report& report) {
+  const Tables table = [&](const Wanted& wanted, const std::vector<std::string>& keys, const char* caption) {
+    return table_of(all, report, wanted, keys, caption);
+  };
+  const Wanted is_measured = [](const ShadingRun& run) { return run.error.has_value(); };
+  report.abstract = gain_text(all, report);
+  report.sections.push_back({"Method", {Paragraph{method_text(plan, all.same_as_gather)}}});
+  add_time_sections(all, table, report);
+  add_shared_sections(all, table, report);
   report.sections.push_back({"Runs",
                              {table(is_measured,
                                     {"variant", "samples", "cpu_s", "cpu_least_s", "cpu_most_s", "rel_mse",
-                                     "rel_mse_deviation", "block_rel_mse", "bias"},
+                                     "rel_mse_deviation", "rel_mse_4", "rel_mse_16", "top_error", "bias"},
                                     "Error of each picture.")}});
   std::vector<std::string> work{
       "variant", "cpu_s", "rays_camera", "rays_shadow", "rays_indirect", "candidates_proved", "rays_proved"};

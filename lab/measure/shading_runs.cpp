@@ -7,12 +7,17 @@
 #include <fmt/format.h>
 
 #include "lab/measure/caches.h"
+#include "lab/measure/camera_pan.h"
+#include "lab/pictures/flicker.h"
 
 namespace pelage {
 namespace {
 
 /// Adaptive sampling may give a pixel this many times the samples of the picture whose noise is its budget.
 constexpr int kAdaptiveFactor = 16;
+/// The references of sequences have this fraction of the samples of the reference pictures. Flicker is a mean
+/// over many blocks and frames, and the noise of its references does not count.
+constexpr int kSequenceShare = 4;
 /// Samples of the warm-up run, which also measures the noise of `path`.
 constexpr int kWarmUpSamples = 16;
 
@@ -20,6 +25,7 @@ class Sweep {
  public:
   Sweep(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup, Progress& progress)
       : results{shading_curves(scene, plan.parts), {}, {}, same_as_gather(scene)},
+        scene_(scene),
         plan_(plan),
         progress_(progress),
         caches_(CacheFolders(scene, setup.folder).arguments("warm")),
@@ -41,9 +47,10 @@ class Sweep {
       }
     }
     for (ShadingRun& run : results.runs) {
-      if (run.last && results.curves[*run.curve].gather && !progress_.cancelled()) measure_reuse(run);
+      if (run.last && !progress_.cancelled()) measure_shared(run);
     }
-    results.runs.insert(results.runs.end(), others_.begin(), others_.end());
+    measure_flicker();
+    results.runs.insert(results.runs.end(), extras_.begin(), extras_.end());
     std::stable_sort(results.runs.begin(), results.runs.end(),
                      [](const ShadingRun& a, const ShadingRun& b) { return a.curve < b.curve; });
   }
@@ -52,9 +59,8 @@ class Sweep {
 
  private:
   size_t count() const {
-    const auto gathers = std::count_if(results.curves.begin(), results.curves.end(),
-                                       [](const ShadingCurve& curve) { return curve.gather; });
-    return 3 + results.curves.size() * plan_.samples.size() + static_cast<size_t>(gathers);
+    const size_t curves = results.curves.size(), sequences = plan_.flicker_samples.size();
+    return 3 + curves * (plan_.samples.size() + 1) + (sequences > 0 ? 2 + curves * sequences : 0);
   }
 
   static ShadingCurve reference() {
@@ -98,6 +104,7 @@ class Sweep {
     const ShadingCurve& curve = results.curves[at];
     ShadingRun run;
     run.curve = at;
+    run.samples = samples;
     run.last = samples == plan_.samples.back();
     if (!add(variant_of(curve, fmt::format("{}-{}", curve.id, samples),
                         fmt::format("{}, {}", curve.title, samples), samples, false),
@@ -109,30 +116,77 @@ class Sweep {
   }
 
   /// Renders the picture of `run` with another seed.
-  void measure_reuse(ShadingRun& run) {
+  void measure_shared(ShadingRun& run) {
     if (!run.outcome.succeeded()) return;
     const ShadingCurve& curve = results.curves[*run.curve];
-    const Variant variant = variant_of(curve, fmt::format("{}-{}-other", curve.id, plan_.samples.back()),
-                                       fmt::format("{}, {}, other seed", curve.title, plan_.samples.back()),
-                                       plan_.samples.back(), true);
-    ShadingRun other;
-    other.curve = run.curve;
-    other.second = true;
-    other.outcome = runner_.run(variant);
-    other.picture = run.other = runner_.picture(variant);
+    ShadingRun& other =
+        add_extra(run.curve,
+                  variant_of(curve, fmt::format("{}-{}-other", curve.id, run.samples),
+                             fmt::format("{}, {}, other seed", curve.title, run.samples), run.samples, true));
+    run.other = other.picture;
     const auto &a = results.references[0], &b = results.references[1];
-    if (other.outcome.succeeded()) {
-      other.error = picture_error_of_files(other.picture, a, b, ErrorRegion::kFur);
-      run.reuse = picture_error_of_files(run.picture, other.picture, a, b, ErrorRegion::kFur);
-    }
-    others_.push_back(std::move(other));
+    if (!other.outcome.succeeded()) return;
+    other.error = picture_error_of_files(other.picture, a, b, ErrorRegion::kFur);
+    run.shared = picture_error_of_files(run.picture, other.picture, a, b, ErrorRegion::kFur);
+    run.systematic = systematic_error_of_files(run.picture, other.picture, a, b, ErrorRegion::kFur);
   }
 
+  /// Renders sequences of the references and of the curves, with each of the plan's sample counts.
+  void measure_flicker() {
+    if (plan_.flicker_samples.empty()) return;
+    std::vector<std::vector<std::filesystem::path>> references;
+    for (const char* id : {"reference-a", "reference-b"}) {
+      const int samples = std::max(1, plan_.reference_samples / kSequenceShare);
+      references.push_back(render_sequence({}, variant_of(reference(), id, id, samples, true)));
+      if (references.back().empty()) return;
+    }
+    for (ShadingRun& run : results.runs) {
+      const auto& wanted = plan_.flicker_samples;
+      if (!run.curve || !run.outcome.succeeded() ||
+          std::find(wanted.begin(), wanted.end(), run.samples) == wanted.end())
+        continue;
+      Variant variant = run.outcome.variant;
+      variant.once = true;
+      const auto frames = render_sequence(run.curve, variant);
+      if (progress_.cancelled()) return;
+      if (!frames.empty())
+        run.flicker = flicker_of_files(frames, references[0], references[1], ErrorRegion::kFur);
+    }
+  }
+
+  /// Renders kFlickerFrames with the settings of `variant`, while the camera moves. Returns the pictures, or
+  /// nothing after a failure.
+  std::vector<std::filesystem::path> render_sequence(std::optional<size_t> curve, Variant variant) {
+    if (progress_.cancelled()) return {};
+    variant.id += "-frames";
+    variant.title += fmt::format(", {} frames", kFlickerFrames);
+    variant.frames = kFlickerFrames;
+    for (const auto& [key, value] : camera_pan(scene_, kFlickerFrames))
+      variant.arguments.insert(variant.arguments.end(), {"--set", key + "=" + value});
+    const ShadingRun& run = add_extra(curve, variant);
+    std::vector<std::filesystem::path> pictures;
+    if (!run.outcome.succeeded()) return pictures;
+    for (const int frame : pan_frames(scene_, kFlickerFrames).frames)
+      pictures.emplace_back(frame_file_name(run.picture.string(), frame));
+    return pictures;
+  }
+
+  ShadingRun& add_extra(std::optional<size_t> curve, const Variant& variant) {
+    ShadingRun run;
+    run.curve = curve;
+    run.extra = true;
+    run.outcome = runner_.run(variant);
+    run.picture = runner_.picture(variant);
+    extras_.push_back(std::move(run));
+    return extras_.back();
+  }
+
+  const SceneDescription& scene_;
   const ShadingPlan& plan_;
   Progress& progress_;
   std::vector<std::string> caches_;
   VariantRunner runner_;
-  std::vector<ShadingRun> others_;
+  std::vector<ShadingRun> extras_;
   double noise_ = NAN;
   int seed_ = 0;
 };

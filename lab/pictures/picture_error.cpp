@@ -16,6 +16,7 @@ namespace {
 constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};  // luminance
 constexpr int kAround = 4, kBlockAround = 1;             // pixels, or blocks, to each side
 constexpr int kSquare = 16;
+constexpr double kTopFraction = 0.999;
 
 /// R, G, B, A of a picture; empty when one is missing.
 std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
@@ -26,22 +27,6 @@ std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
     channels.push_back(&channel->pixels);
   }
   return channels;
-}
-
-/// 1 in the region, 0 elsewhere; empty when a layer is missing.
-std::optional<Plane> region_of(const ExrImage& image, ErrorRegion region) {
-  const bool fur = region == ErrorRegion::kFur;
-  Plane plane(image.width, image.height);
-  for (const char* name : fur ? std::vector<const char*>{"tangent.X", "tangent.Y", "tangent.Z"}
-                              : std::vector<const char*>{"A"}) {
-    const ExrChannel* channel = image.find(name);
-    if (!channel || channel->pixels.size() != plane.pixels.size()) return {};
-    for (size_t p = 0; p < plane.pixels.size(); ++p) {
-      const float value = channel->pixels[p];
-      if (fur ? value != 0 : value > 0) plane.pixels[p] = 1;
-    }
-  }
-  return plane;
 }
 
 /// One channel of the tested pictures x and y and of the references a and b.
@@ -73,23 +58,55 @@ struct Squares {
   }
 };
 
-RelativeError relative_error(const std::vector<Compared>& channels, const Plane& region, int around) {
-  Squares squares;
+/// Relative squared error of each pixel of the region, as a mean over channels; 0 elsewhere.
+Plane squared_errors(const std::vector<Compared>& channels, const Plane& region, int around) {
+  Plane errors(region.width, region.height);
   for (const auto& [x, y, a, b] : channels) {
     const Plane t = blurred(mean_of(a, b), around);
     const double m = mean_over(t, region);
-    for (int v = 0; v < region.height; ++v) {
-      for (int u = 0; u < region.width; ++u) {
-        if (!(region.at(u, v) > 0.5)) continue;
-        const double error = 0.5 * ((x.at(u, v) - a.at(u, v)) * (y.at(u, v) - b.at(u, v)) +
-                                    (x.at(u, v) - b.at(u, v)) * (y.at(u, v) - a.at(u, v)));
-        Squares::Sum& sum = squares.sums[{u / kSquare, v / kSquare}];
-        if (error != 0) sum.error += error / (t.at(u, v) * t.at(u, v) + 0.01 * m * m);
-        ++sum.count;
-      }
+    for (size_t p = 0; p < errors.pixels.size(); ++p) {
+      if (!(region.pixels[p] > 0.5)) continue;
+      const double error = 0.5 * ((x.pixels[p] - a.pixels[p]) * (y.pixels[p] - b.pixels[p]) +
+                                  (x.pixels[p] - b.pixels[p]) * (y.pixels[p] - a.pixels[p]));
+      if (error != 0)
+        errors.pixels[p] +=
+            error / (t.pixels[p] * t.pixels[p] + 0.01 * m * m) / static_cast<double>(channels.size());
+    }
+  }
+  return errors;
+}
+
+RelativeError mean_error(const Plane& errors, const Plane& region) {
+  Squares squares;
+  for (int v = 0; v < region.height; ++v) {
+    for (int u = 0; u < region.width; ++u) {
+      if (!(region.at(u, v) > 0.5)) continue;
+      Squares::Sum& sum = squares.sums[{u / kSquare, v / kSquare}];
+      sum.error += errors.at(u, v);
+      ++sum.count;
     }
   }
   return squares.result();
+}
+
+double top_error(const Plane& errors, const Plane& region) {
+  std::vector<double> values;
+  for (size_t p = 0; p < errors.pixels.size(); ++p) {
+    if (region.pixels[p] > 0.5) values.push_back(errors.pixels[p]);
+  }
+  if (values.empty()) return NAN;
+  const auto top = values.begin() + std::lround(kTopFraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), top, values.end());
+  return std::sqrt(std::max(0.0, *top));
+}
+
+double block_mse(const std::vector<Compared>& pixels, const Plane& region, int size) {
+  std::vector<Compared> blocks;
+  for (const auto& [x, y, a, b] : pixels)
+    blocks.push_back(
+        {block_means(x, size), block_means(y, size), block_means(a, size), block_means(b, size)});
+  const Plane inside = block_means(region, size);
+  return mean_error(squared_errors(blocks, inside, kBlockAround), inside).mean;
 }
 
 double luminance_over(const std::vector<Compared>& channels, const Plane& region, bool of_references) {
@@ -111,21 +128,22 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, 
     channels.push_back(channels_of(*image));
     if (channels.back().empty() || image->width != a.width || image->height != a.height) return {};
   }
-  const std::optional<Plane> inside = region_of(a, region);
+  const std::optional<Plane> inside = region_of(a, b, region);
   if (!inside) return {};
-  std::vector<Compared> pixels, blocks;
+  std::vector<Compared> pixels;
   for (size_t c = 0; c < 3; ++c) {
     const auto plane = [&](size_t image) { return Plane(a.width, a.height, *channels[image][c]); };
     pixels.push_back({plane(0), plane(1), plane(2), plane(3)});
-    const auto& [px, py, pa, pb] = pixels.back();
-    blocks.push_back({block_means(px), block_means(py), block_means(pa), block_means(pb)});
   }
 
   PictureError result;
-  const RelativeError error = relative_error(pixels, *inside, kAround);
+  const Plane errors = squared_errors(pixels, *inside, kAround);
+  const RelativeError error = mean_error(errors, *inside);
   result.rel_mse = error.mean;
   result.rel_mse_deviation = error.deviation;
-  result.block_rel_mse = relative_error(blocks, block_means(*inside), kBlockAround).mean;
+  result.top_error = top_error(errors, *inside);
+  result.rel_mse_4 = block_mse(pixels, *inside, 4);
+  result.rel_mse_16 = block_mse(pixels, *inside, 16);
   const double truth = luminance_over(pixels, *inside, true);
   result.bias = truth != 0 ? luminance_over(pixels, *inside, false) / truth - 1 : 0;
   const Plane everywhere(a.width, a.height, 1);

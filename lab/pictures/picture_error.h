@@ -5,14 +5,9 @@
 #include <optional>
 
 #include "image/exr.h"
+#include "lab/pictures/error_region.h"
 
 namespace pelage {
-
-/// Selects the pixels over which errors are averaged. The first reference determines them.
-enum class ErrorRegion {
-  kSurfaces,  ///< alpha is not 0
-  kFur,       ///< the layer `tangent` is not 0
-};
 
 /// Error of a picture x relative to two reference pictures a and b. The three pictures have different seeds.
 /// The noise of the references does not count, because (x - a)(x - b) is zero on average where x is right.
@@ -27,15 +22,18 @@ struct PictureError {
   /// Standard error of rel_mse, computed from sums over squares of 16 x 16 pixels. NaN for fewer than two
   /// squares.
   double rel_mse_deviation = 0;
-  /// relMSE of pictures that consist of means of blocks of 4 x 4 pixels. Counts the blocks that have more
-  /// than half of their pixels in the region. Here, t is the mean of (a + b) / 2 over 3 x 3 blocks.
-  double block_rel_mse = 0;
+  /// relMSE of pictures that consist of means of blocks of 4 x 4 or 16 x 16 pixels. Counts the blocks that
+  /// have more than half of their pixels in the region. Here, t is the mean of (a + b) / 2 over 3 x 3 blocks.
+  double rel_mse_4 = 0, rel_mse_16 = 0;
+  /// 99.9th percentile of the error of a pixel: the root of the term of rel_mse that only one pixel of the
+  /// region in a thousand exceeds. The term is a mean over R, G and B.
+  double top_error = 0;
   double bias = 0;     ///< mean luminance of x over the region, divided by that of (a + b) / 2, minus 1
   double samples = 0;  ///< mean of the layer `samples` over all pixels; NaN without this layer
   double region_samples = 0;  ///< mean of the layer `samples` over the region; NaN without this layer
 };
 
-/// Empty when the pictures differ in size or lack R, G, B or A, or `a` lacks the layer of the region.
+/// Empty when the pictures differ in size or lack R, G, B or A, or `a` or `b` lacks the layer of the region.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b,
                                           ErrorRegion region);
 

@@ -21,11 +21,11 @@ Plane mean_of(const Plane& a, const Plane& b) {
   return mean;
 }
 
-Plane block_means(const Plane& plane) {
-  Plane means(plane.width / kMeanBlock, plane.height / kMeanBlock);
-  for (int y = 0; y < means.height * kMeanBlock; ++y) {
-    for (int x = 0; x < means.width * kMeanBlock; ++x)
-      means.at(x / kMeanBlock, y / kMeanBlock) += plane.at(x, y) / (kMeanBlock * kMeanBlock);
+Plane block_means(const Plane& plane, int size) {
+  Plane means(plane.width / size, plane.height / size);
+  for (int y = 0; y < means.height * size; ++y) {
+    for (int x = 0; x < means.width * size; ++x)
+      means.at(x / size, y / size) += plane.at(x, y) / (size * size);
   }
   return means;
 }

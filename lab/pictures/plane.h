@@ -28,10 +28,9 @@ struct Plane {
 /// Returns (a + b) / 2, pixel by pixel. The images must have the same size.
 Plane mean_of(const Plane& a, const Plane& b);
 
-/// Width and height in pixels of the blocks of block_means().
-constexpr int kMeanBlock = 4;
-/// Returns the means of the blocks of an image. Omits incomplete blocks at the right and lower borders.
-Plane block_means(const Plane& plane);
+/// Returns the means of the blocks of size x size pixels of an image. Omits incomplete blocks at the right
+/// and lower borders.
+Plane block_means(const Plane& plane, int size);
 
 /// Box filter: returns for each pixel the mean over the square window centred on it, whose width is 2 *
 /// around + 1 pixels. Outside the image, the pixels at the border are repeated.

@@ -92,7 +92,7 @@ VariantRunner::VariantRunner(const MeasureSetup& setup, Progress& progress, size
     : setup_(setup), progress_(progress), count_(count) {}
 
 std::filesystem::path VariantRunner::picture(const Variant& variant) const {
-  return setup_.folder / (variant.id + ".exr");
+  return setup_.folder / (variant.id + (variant.frames > 1 ? ".####.exr" : ".exr"));
 }
 
 Outcome VariantRunner::run(const Variant& variant) {
@@ -150,14 +150,14 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
     run.command.insert(run.command.end(), list->begin(), list->end());
   run.load = load_average();
   ProcessLimits limits;
-  limits.seconds = setup_.time_limit_s;
+  limits.seconds = setup_.time_limit_s * variant.frames;
   limits.cancelled = [&] { return progress_.cancelled(); };
   ProcessSetup process{run.command};
   process.log = log;
   run.end = run_process(process, limits).end;
   run.statistics = RunStatistics::read(statistics);
   if (run.end.timed_out) {
-    run.error = fmt::format("stopped after {:g} s", setup_.time_limit_s);
+    run.error = fmt::format("stopped after {:g} s", limits.seconds);
   } else if (!run.end.succeeded()) {
     run.error = error_lines(log);
   }

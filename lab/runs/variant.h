@@ -32,6 +32,8 @@ struct Variant {
   /// Runs only once: for warm-up runs, and for cold runs, which would be warm the second time.
   bool once = false;
   std::function<void()> prepare = {};  ///< called before each run
+  /// Number of frames that a run renders. Each frame has the time limit of a run.
+  int frames = 1;
 };
 
 struct VariantRun {
@@ -73,15 +75,17 @@ class VariantRunner {
   VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count);
 
   /// Runs a variant. A run writes ID.json (--stats), ID.log and, if it renders, ID.exr (-o), where ID is
-  /// Variant::id. Repeated runs write ID.2.json, ID.2.log and so on. A variant that fails is a valid result;
-  /// it is not run again. Throws Error (kFailed) when the folder cannot be written.
+  /// Variant::id. Repeated runs write ID.2.json, ID.2.log and so on. The pictures of several frames are
+  /// ID.0001.exr and so on. A variant that fails is a valid result; it is not run again. Throws Error
+  /// (kFailed) when the folder cannot be written.
   Outcome run(const Variant& variant);
   /// Runs several variants in rounds: every round runs each variant once, so that a change of the machine's
   /// load affects all variants alike. A variant that failed is not run again. Omits variants that were never
   /// run because the user stopped.
   std::vector<Outcome> run_in_rounds(const std::vector<Variant>& variants);
 
-  /// Path of the picture that the runs of a variant write.
+  /// Path of the picture that the runs of a variant write. If they render several frames, it has a
+  /// placeholder for frame_file_name().
   std::filesystem::path picture(const Variant& variant) const;
 
  private:

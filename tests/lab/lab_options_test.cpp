@@ -62,6 +62,12 @@ TEST(LabOptionsTest, OfMeasure) {
   EXPECT_EQ(shading.parts, (std::vector<std::string>{"gather", "reuse"}));
   EXPECT_EQ(parsed({"measure", "shading", "s"}).samples, (std::vector<int>{4, 16, 64}));
   EXPECT_NE(problem({"measure", "shading", "s", "--samples", "0"}), "");
+  EXPECT_EQ(shading.flicker_samples, (std::vector<int>{2})) << "the smallest";
+  EXPECT_EQ(parsed({"measure", "shading", "s", "--flicker-samples", "16,4"}).flicker_samples,
+            (std::vector<int>{4, 16}));
+  EXPECT_TRUE(parsed({"measure", "shading", "s", "--flicker-samples", "0"}).flicker_samples.empty());
+  EXPECT_EQ(problem({"measure", "shading", "s", "--flicker-samples", "8"}),
+            "--flicker-samples: 8 is not one of --samples 4,16,64");
   EXPECT_EQ(parsed({"measure", "bounces", "s", "--samples", "8"}).experiment, Experiment::kBounces);
   EXPECT_NE(problem({"measure", "shading", "s", "--reference-samples", "0"}), "");
   EXPECT_EQ(problem({"measure", "shading", "s", "--parts", "gatehr"}),

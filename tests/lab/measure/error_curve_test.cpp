@@ -16,6 +16,15 @@ TEST(ErrorCurve, IsAStraightLineInLogarithms) {
   EXPECT_NEAR(cpu_s_to({{16, 0.0625}, {1, 1}, {4, 0.25}}, 0.1), 10, 1e-9) << "in any order";
 }
 
+TEST(ErrorCurve, HasAnErrorAfterEachTime) {
+  const ErrorCurve curve{{16, 0.0625}, {1, 1}, {4, 0.25}};
+  for (const double cpu_s : {1.0, 2.0, 4.0, 10.0, 16.0})
+    EXPECT_NEAR(error_after(curve, cpu_s), 1 / cpu_s, 1e-9);
+  EXPECT_TRUE(std::isnan(error_after(curve, 0.9)));
+  EXPECT_TRUE(std::isnan(error_after(curve, 17)));
+  EXPECT_TRUE(std::isnan(error_after({{1, 0.1}}, 1)));
+}
+
 TEST(ErrorCurve, IsNotExtrapolated) {
   EXPECT_TRUE(std::isnan(cpu_s_to({}, 0.1)));
   EXPECT_TRUE(std::isnan(cpu_s_to({{1, 0.1}}, 0.1)));

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
+#include "tests/lab/pictures/noisy_pictures.h"
 
 namespace pelage {
 namespace {
@@ -144,7 +145,8 @@ TEST(PictureError, IsThatOfNaiveLoops) {
   ASSERT_TRUE(error);
   // Sums of 150,000 numbers in another order, in double precision.
   EXPECT_NEAR(error->rel_mse / naive_rel_mse(x, a, b, 1, 4), 1, 1e-9);
-  EXPECT_NEAR(error->block_rel_mse / naive_rel_mse(x, a, b, 4, 1), 1, 1e-9);
+  EXPECT_NEAR(error->rel_mse_4 / naive_rel_mse(x, a, b, 4, 1), 1, 1e-9);
+  EXPECT_NEAR(error->rel_mse_16 / naive_rel_mse(x, a, b, 16, 1), 1, 1e-9);
 }
 
 TEST(PictureError, CountsNoNoiseOfTheReferences) {
@@ -154,7 +156,8 @@ TEST(PictureError, CountsNoNoiseOfTheReferences) {
     // (x - a)(x - b) varies by 3 to 4 times the variance of a pixel: 5 deviations of the mean over 120,000
     // numbers and more are 0.014. The noise of t adds 3 * 0.25 / (2 * 81).
     EXPECT_NEAR(error->rel_mse, kVariance / 1.01, 0.02);
-    EXPECT_NEAR(error->block_rel_mse, kVariance / 16 / 1.01, 0.004);
+    EXPECT_NEAR(error->rel_mse_4, kVariance / 16 / 1.01, 0.004);
+    EXPECT_NEAR(error->rel_mse_16, kVariance / 256 / 1.01, 0.0005);
     EXPECT_NEAR(error->bias, 0, 0.01);
   }
 }
@@ -188,6 +191,21 @@ TEST(PictureError, KnowsItsStandardError) {
   EXPECT_LT(squares / stated, 2.1);
 }
 
+TEST(PictureError, KnowsTheErrorThatOnePixelInAThousandExceeds) {
+  const auto one_in = [](int count) {
+    return fur_picture(
+        300, 200, [&](int x, int y) { return (300 * y + x) % count == 7 ? 3 : 1; }, 0, 1);
+  };
+  const ExrImage truth = one_in(1000000);
+  const auto top = [&](int count) {
+    return picture_error(one_in(count), truth, truth, ErrorRegion::kFur)->top_error;
+  };
+  EXPECT_NEAR(top(500), 2 / std::sqrt(1.01), 0.001);
+  EXPECT_EQ(top(2000), 0);
+  // References without a firefly do not get one from the picture, nor does one reference alone make an error.
+  EXPECT_EQ(picture_error(truth, one_in(100), truth, ErrorRegion::kFur)->top_error, 0);
+}
+
 TEST(PictureError, IsUnknownWithoutFur) {
   ExrImage bald = noisy(1, 1);
   for (ExrChannel& channel : bald.channels) {
@@ -196,7 +214,9 @@ TEST(PictureError, IsUnknownWithoutFur) {
   const auto error = picture_error(noisy(2, 1), bald, noisy(3, 1), ErrorRegion::kFur);
   ASSERT_TRUE(error);
   EXPECT_TRUE(std::isnan(error->rel_mse));
-  EXPECT_TRUE(std::isnan(error->block_rel_mse));
+  EXPECT_TRUE(std::isnan(error->rel_mse_4));
+  EXPECT_TRUE(std::isnan(error->rel_mse_16));
+  EXPECT_TRUE(std::isnan(error->top_error));
   EXPECT_EQ(error->region_share, 0);
 }
 
