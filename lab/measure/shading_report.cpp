@@ -53,25 +53,37 @@ LinePlot plot_of(const ShadingRuns& all, double PictureError::*error, const std:
   return plot;
 }
 
+/// What the row of `gather` with most samples says of times and errors; empty without this row.
 std::string gain_text(const ShadingRuns& all, const Report& report) {
   const auto gather = std::find_if(all.runs.begin(), all.runs.end(), [&](const ShadingRun& run) {
     return run.last && all.curves[*run.curve].id == "gather";
   });
+  if (gather == all.runs.end()) return "";
+  const auto number = [&](const std::string& key) {
+    return column_values(report.data, key)[static_cast<size_t>(gather - all.runs.begin())];
+  };
   std::string text;
-  if (gather == all.runs.end()) return text;
   for (const int percent : kShadingTargets) {
-    const auto number = [&](const char* key) {
-      return column_values(
-          report.data, fmt::format("{}_{}", key, percent))[static_cast<size_t>(gather - all.runs.begin())];
-    };
-    const double gain = number("gain_at"), seconds = number("cpu_s_to");
+    const double gain = number(fmt::format("gain_at_{}", percent)),
+                 seconds = number(fmt::format("cpu_s_to_{}", percent));
     if (!std::isfinite(gain)) continue;
     text += fmt::format(
-        "{}gather reaches {} % relMSE on fur after {:.2f} CPU seconds, path after {:.2f}: gain {:.2f}.",
-        text.empty() ? "" : " ", percent, seconds, gain * seconds, gain);
+        "gather reaches {} % relMSE on fur after {:.2f} CPU seconds, path after {:.2f}: gain {:.2f}. ",
+        percent, seconds, gain * seconds, gain);
   }
-  return text.empty() ? "With these sample counts, path and gather reach no common relMSE of 5, 2 or 1 %."
-                      : text;
+  if (text.empty())
+    text = "With these sample counts, path and gather reach no common relMSE of 5, 2 or 1 %. ";
+  const double pixels = number("equal_gain"), of_4 = number("equal_gain_4"), of_16 = number("equal_gain_16");
+  if (std::isfinite(pixels + of_4 + of_16))
+    text += fmt::format(
+        "After {:.2f} CPU seconds, relMSE of path is {:.2f} times that of gather in pixels, {:.2f} times in "
+        "means of 4 x 4 pixels, and {:.2f} times in means of 16 x 16. ",
+        number("equal_cpu_s"), pixels, of_4, of_16);
+  if (const double error = number("systematic_8"); std::isfinite(error))
+    text +=
+        fmt::format("Two seeds of gather share an error of {:.2f} % in means of 8 x 8 pixels. ", 100 * error);
+  text.pop_back();
+  return text;
 }
 
 std::string method_text(const ShadingPlan& plan, const std::string& same_as_gather) {

@@ -17,7 +17,7 @@ namespace {
 constexpr int kAdaptiveFactor = 16;
 /// The references of sequences have this fraction of the samples of the reference pictures. Flicker is a mean
 /// over many blocks and frames, and the noise of its references does not count.
-constexpr int kSequenceShare = 4;
+constexpr int kSequenceShare = 8;
 /// Samples of the warm-up run, which also measures the noise of `path`.
 constexpr int kWarmUpSamples = 16;
 

@@ -165,8 +165,10 @@ class Measure(unittest.TestCase):
             self.assertIsNone(few["flicker"])
             self.assertGreater(many["equal_cpu_s"], 0)
             self.assertIsNone(few["equal_gain_4"])
-        for key in "equal_gain", "equal_gain_4", "equal_gain_16":
+        for key in "equal_gain", "equal_gain_4":
             self.assertEqual(rows["path, 16"][key], 1)
+        headings = [section["heading"] for section in self.page("out")["sections"]]
+        self.assertEqual(headings[2:5], ["At equal CPU time", "Systematic error", "Flicker"])
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_gather_point"], 1)
         self.assertGreater(rows["gather, 16"]["samples_per_gather_point"], 1)
         cached = rows["gather, cache: true, 16"]
