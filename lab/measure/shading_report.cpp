@@ -89,17 +89,14 @@ std::string gain_text(const ShadingRuns& all, const Report& report) {
 std::string method_text(const ShadingPlan& plan, const std::string& same_as_gather) {
   std::string text = fmt::format(
       "The references a and b are two splatted pictures of path with {}. Every picture has a seed of its "
-      "own. relMSE of a picture x is the mean over pixels with fur (layer tangent not 0) and channels of "
-      "(x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the "
-      "mean of t; the noise of the references cancels. relMSE of 4 x 4 and of 16 x 16 is the same of means "
-      "of "
-      "so many pixels, with t over 3 x 3 means. The 99.9th percentile is the relative error that one pixel "
-      "of "
-      "fur in a thousand exceeds. Mean off is the error of the mean luminance of fur. CPU seconds count the "
-      "whole "
-      "process, growth included; caches of boxes and operators are warm. Where sampling is adaptive, its "
-      "noise budget is the noise of path with the stated number of samples, and a pixel may get 16 times "
-      "as many.",
+      "own. relMSE of a picture x is the mean over pixels with fur (squared length of the layer tangent "
+      "above 0.05 in both references) and channels of (x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean "
+      "of (a + b) / 2 over 9 x 9 pixels and m the mean of t; the noise of the references cancels. relMSE of "
+      "4 x 4 and of 16 x 16 is the same of means of so many pixels, with t over 3 x 3 means. The 99.9th "
+      "percentile is the relative error that one pixel of fur in a thousand exceeds. Mean off is the error "
+      "of the mean luminance of fur. CPU seconds count the whole process, growth included; caches of boxes "
+      "and operators are warm. Where sampling is adaptive, its noise budget is the noise of path with the "
+      "stated number of samples, and a pixel may get 16 times as many.",
       counted(plan.reference_samples, "sample"));
   if (!same_as_gather.empty())
     text += fmt::format(" {} is left out: in this scene, gather does exactly that.", same_as_gather);
