@@ -127,7 +127,7 @@ class Measure(unittest.TestCase):
 
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
-                     "--reference-samples", "64", "--flicker-samples", "16", "--parts", "splatted,adaptive,gather,reuse,cache,no_cache,skin_ball", "--set", "image.width=48",
+                     "--reference-samples", "128", "--flicker-samples", "16", "--parts", "splatted,adaptive,gather,reuse,cache,no_cache,skin_ball", "--set", "image.width=48",
                      "--set", "image.height=32", "--set", "render.gather.cache_paths=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true",
