@@ -70,7 +70,11 @@ size_t bytes_of(const RibScene& rib) {
 size_t material_of(const SceneDescription& scene, const ArchiveParams& params, const RibScene& rib,
                    size_t own) {
   const RibMaterial& material = rib.materials[own];
-  const auto* entry = params.materials.find(material.name);
+  const auto* entry = rib.frame ? params.materials.find(frame_material(material.name, *rib.frame)) : nullptr;
+  if (!entry) entry = params.materials.find(material.name);
+  if (!entry && rib.shadow_pass)
+    throw Error(ErrorKind::kInput, params.rib.position,
+                fmt::format("frame {} only draws shadow maps; choose another frame", rib.frame.value_or(0)));
   if (!entry)
     throw Error(ErrorKind::kInput, params.rib.position,
                 "surface " + quote(material.name) + " has no material; add it to the table `materials`");

@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 
 #include "base/nearest_name.h"
+#include "rib/document/rib_frames.h"
 #include "rib/document/rib_values.h"
-#include "rib/scene/rib_reading.h"
 
 namespace pelage {
 namespace {
 
-constexpr size_t kMaxRibFrames = 10'000;
 constexpr size_t kMaxLightLayers = 100;  // of more lights, the layers would take more memory than the scene
 
 /// Position, target and up vector of a camera matrix.
@@ -171,32 +170,21 @@ Value option_block(const RibScene& rib, const char* name, const SourcePosition& 
   return option == rib.options.end() ? Value::map(at, {}) : rib_block(option->second.front());
 }
 
-RibScene read_description(const std::filesystem::path& path, const std::optional<int>& frame, bool mirror,
-                          const RibUse& use, size_t max_request_bytes) {
-  RibReadOptions options;
-  options.frame = frame;
-  options.geometry = false;
-  options.mirror_left_handed = mirror;
-  options.programs = use.programs;
-  options.max_request_bytes = max_request_bytes;
-  return read_rib(path, options);
-}
-
 RibMaterials materials_of(const RibUse& use) {
   return RibMaterials(use.materials.empty() ? RibMaterialTable() : RibMaterialTable(use.materials));
 }
 
-void add_materials_and_lights(const RibScene& rib, RibMaterials own, Value& document, Value& table,
+void add_materials_and_lights(const RibFrames& frames, RibMaterials own, Value& document, Value& table,
                               std::vector<Problem>& warnings) {
   const SourcePosition at = document.position();
   Value materials = Value::map(at, {}), lights = Value::map(at, {});
-  for (const RibMaterial& material : rib.materials) {
-    add_entry(materials, material.name, own.material(material, warnings));
-    add_entry(table, material.name, rib_text(at, material.name));
+  for (const auto& [key, material] : frames.materials) {
+    add_entry(materials, key, own.material(material, warnings));
+    add_entry(table, key, rib_text(at, key));
   }
   own.finish(warnings);
   RibLights blocks;
-  for (const RibLight& light : rib.lights) {
+  for (const RibLight& light : frames.first.lights) {
     if (std::optional<Value> block = blocks.light(light, warnings))
       add_entry(lights, light.name, std::move(*block));
   }
@@ -214,28 +202,18 @@ bool is_rib(const std::filesystem::path& path) {
 Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t max_request_bytes,
                    std::vector<Problem>& warnings) {
   const SourcePosition at{path.string(), 1, 1};
-  RibScene rib = read_description(path, {}, true, use, max_request_bytes);
+  const RibFrames frames = read_rib_frames(path, true, use, max_request_bytes, warnings);
+  const RibScene& rib = frames.first;
   if (!rib.camera.stated)
     throw Error(ErrorKind::kInput, {path.string(), 0, 0},
                 "the file has no WorldBegin, and so no camera; use it in a scene: "
                 "archives: {name: {rib: " +
                     path.filename().string() + "}}");
-  warnings.insert(warnings.end(), rib.warnings.begin(), rib.warnings.end());
-  std::vector<int> frames = rib.frames;
-  std::sort(frames.begin(), frames.end());
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  if (frames.size() > kMaxRibFrames)
-    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, fmt::format("more than {} frames", kMaxRibFrames));
-
   PictureBlocks picture(path, warnings);
-  if (frames.size() < 2) picture.add_frame(frames.empty() ? 1 : frames.front(), rib.camera);
+  if (frames.cameras.empty()) picture.add_frame(1, rib.camera);
   std::string list;
-  for (const int frame : frames) {
-    if (frames.size() > 1) {
-      const RibScene one = read_description(path, frame, true, use, max_request_bytes);
-      if (one.shadow_pass && !rib.shadow_pass) continue;
-      picture.add_frame(frame, one.camera);
-    }
+  for (const auto& [frame, camera] : frames.cameras) {
+    picture.add_frame(frame, camera);
     list += (list.empty() ? "" : ",") + std::to_string(frame);
   }
   Value document = Value::map(at, {});
@@ -258,7 +236,7 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
     if (!block.entries().empty()) add_entry(document, name, std::move(block));
   }
   Value table = Value::map(at, {}), archive = Value::map(at, {}), archives = Value::map(at, {});
-  add_materials_and_lights(rib, materials_of(use), document, table, warnings);
+  add_materials_and_lights(frames, materials_of(use), document, table, warnings);
   add_entry(archive, "rib", rib_text(at, path.filename().string()));
   if (!table.entries().empty()) add_entry(archive, "materials", std::move(table));
   const std::string name = path.filename().string();
@@ -270,9 +248,9 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
 namespace {
 
 /// Of the `materials` that a scene gives an archive.
-void warn_of_unknown_surfaces(const Value& table, const RibScene& rib, std::vector<Problem>& warnings) {
+void warn_of_unknown_surfaces(const Value& table, const RibFrames& frames, std::vector<Problem>& warnings) {
   std::vector<std::string> names;
-  for (const RibMaterial& material : rib.materials) names.push_back(material.name);
+  for (const RibFrameMaterial& material : frames.materials) names.push_back(material.key);
   for (const Value::Entry& entry : table.entries()) {
     if (std::find(names.begin(), names.end(), entry.key) == names.end())
       warnings.push_back(
@@ -298,23 +276,23 @@ void add_archive_materials(Value& document, const RibUse& use, size_t max_reques
     const std::filesystem::path folder = std::filesystem::path(named_at.file).parent_path();
     const bool by_flag = named_at.line == 0;
     std::filesystem::path path = by_flag ? std::filesystem::path(file->text()) : folder / file->text();
-    RibScene rib;
+    RibFrames frames;
     try {
-      rib = read_description(path, {}, false, use, max_request_bytes);
+      frames = read_rib_frames(path, false, use, max_request_bytes, warnings);
     } catch (const Error& error) {
       if (error.problems().size() != 1 || error.problems()[0].position.line > 0) throw;
       throw Error(ErrorKind::kInput, named_at, error.what());
     }
-    warnings.insert(warnings.end(), rib.warnings.begin(), rib.warnings.end());
     if (!entry.value.find("materials")) add_entry(entry.value, "materials", Value::map(named_at, {}));
     Value* table = entry.value.find("materials");
     if (!table->is_map()) continue;
-    warn_of_unknown_surfaces(*table, rib, warnings);
-    for (const RibMaterial& material : rib.materials) {
+    warn_of_unknown_surfaces(*table, frames, warnings);
+    const Value stated = *table;  // what the scene says of a surface holds in all frames
+    for (const auto& [key, material] : frames.materials) {
       own_materials.note(material);
-      if (table->find(material.name)) continue;
-      const std::string name = entry.key + "." + material.name;
-      add_entry(*table, material.name, rib_text(named_at, name));
+      if (stated.find(material.name) || stated.find(key)) continue;
+      const std::string name = entry.key + "." + key;
+      add_entry(*table, key, rib_text(named_at, name));
       const Value* own = document.find("materials");
       if (!own || !own->find(name)) add_entry(added, name, own_materials.material(material, warnings));
     }

@@ -84,8 +84,9 @@ class LightBlock {
     } else if (contains("distant") || contains("direction") || contains("dirlight") || contains("sun")) {
       return distant(color_setting(shader_, "from", V3f(0)), color_setting(shader_, "to", V3f(0, 0, 1)),
                      kDistantHalfAngle);
-    } else if (contains("point") || contains("spot") || from) {
+    } else if (contains("point") || contains("spot") || from || is_unknown()) {
       if (contains("spot") || to) difference_ = "shines in all directions, not in a cone";
+      if (is_unknown() && !from) difference_ = "is not known; it shines from its origin in all directions";
       V3f position;
       matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), position);
       sphere(position, kPointRadius, radiance_ / (kPointRadius * kPointRadius));
@@ -95,6 +96,12 @@ class LightBlock {
       return false;
     }
     return true;
+  }
+
+  /// Whether the name says only that this is a light; "uberlight" is in many scenes.
+  bool is_unknown() const {
+    return (contains("light") || contains("uber")) && !contains("point") && !contains("spot") &&
+           !contains("area");
   }
 
   /// A square around the origin. `along`: the z axis along which it shines, 1 or -1.

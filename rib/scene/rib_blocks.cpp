@@ -56,22 +56,42 @@ void RibInterpreter::begin_frame(const Call& call) {
   const float number = request.arguments[0].number(0);
   if (!(std::abs(number) < 1e9f)) request.fail("a number of a frame must be less than 1e9");
   const int frame = static_cast<int>(number);
-  scene_.frames.push_back(frame);
-  if (frame_done_ || (options_.frame && *options_.frame != frame)) {
+  if (!options_.each_frame && (frame_done_ || (options_.frame && *options_.frame != frame))) {
     skip_until_ = "FrameEnd";
     return;
   }
   frame_done_ = true;
-  before_frame_ = camera_;
+  before_frame_.camera = camera_;
+  if (options_.each_frame)
+    before_frame_ = {camera_,        scene_,        materials_, coats_,    names_,         next_numbers_,
+                     context_.world, named_camera_, points_,    archives_, inner_archives_};
+  scene_.frame = frame;
   begin_block(call);
 }
 
 // A frame that only draws shadow maps is no picture of the file's own, so the next frame may be.
 void RibInterpreter::end_frame() {
-  camera_ = before_frame_;
-  if (world_done_ || !skipped_shadows_ || options_.frame) return;
-  frame_done_ = false;
-  scene_.frames.pop_back();
+  const bool is_picture = world_done_ || !skipped_shadows_;
+  camera_ = before_frame_.camera;
+  if (!options_.each_frame) {
+    if (!is_picture && !options_.frame) frame_done_ = false;
+    return;
+  }
+  if (is_picture) options_.each_frame(scene_);
+  any_picture_ |= is_picture;
+  world_done_ = false;
+  before_frame_.scene.warnings = std::move(scene_.warnings);
+  before_frame_.scene.files = std::move(scene_.files);
+  scene_ = std::move(before_frame_.scene);
+  materials_ = std::move(before_frame_.materials);
+  coats_ = std::move(before_frame_.coats);
+  names_ = std::move(before_frame_.names);
+  next_numbers_ = std::move(before_frame_.next_numbers);
+  context_.world = before_frame_.world;
+  named_camera_ = before_frame_.named_camera;
+  points_ = before_frame_.points;
+  archives_ = before_frame_.archives;
+  inner_archives_ = before_frame_.inner_archives;
 }
 
 // The world of a file whose camera sees it mirrored is left-handed.
@@ -101,6 +121,7 @@ void RibInterpreter::begin_world(const Call& call) {
   scene_.camera.stated = true;
   scene_.camera.to_camera = now_.to_world.after(context_.world);
   move_lights_to_world();
+  context_.spaces["camera"] = RibTransform(now_.to_world.at(0).inverse() * context_.world.at(0));
   begin_block(call);
   now_.to_world = context_.world;
   world_done_ = true;

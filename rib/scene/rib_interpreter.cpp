@@ -180,9 +180,6 @@ void RibInterpreter::keep(const RibStatement& request, std::vector<RibStatement>
 
 bool RibInterpreter::skip(const RibStatement& request) {
   if (skip_until_.empty()) return false;
-  if (request.name == "FrameBegin" && !request.arguments.empty() && request.arguments[0].is_number() &&
-      request.arguments[0].size() == 1)
-    scene_.frames.push_back(static_cast<int>(request.arguments[0].number(0)));
   if (request.name == skip_until_) skip_until_.clear();
   return true;
 }

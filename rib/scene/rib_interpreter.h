@@ -80,7 +80,7 @@ class RibInterpreter {
   void finish();
   RibScene& scene() { return scene_; }
   /// Returns whether all worlds were skipped because they draw shadow maps.
-  bool is_shadow_pass() const { return !world_done_ && skipped_shadows_; }
+  bool is_shadow_pass() const { return !world_done_ && !any_picture_ && skipped_shadows_; }
 
   /// Deferred archives: calls `take` instead of keeping strands.
   void set_take(RibBatches::Take take) {
@@ -237,6 +237,7 @@ class RibInterpreter {
 
   std::string skip_until_;  // a request that ends skipping; empty: not skipping
   bool frame_done_ = false, world_done_ = false;
+  bool any_picture_ = false;  // each_frame was called with a frame
 
   bool in_motion_ = false;
   std::vector<double> times_;
@@ -253,7 +254,18 @@ class RibInterpreter {
   size_t largest_request_ = 0;            // bytes of the arguments, if more than 1 MiB
   size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, inner_archives_ = 0, statements_ = 0;
 
-  RibCamera camera_, before_frame_;
+  RibCamera camera_;
+  /// What FrameEnd restores, beside the attributes. All but the camera is used with each_frame only.
+  struct FrameState {
+    RibCamera camera;
+    RibScene scene;
+    std::map<std::string, size_t> materials, coats;
+    std::set<std::string> names;
+    std::map<std::string, int> next_numbers;
+    RibTransform world;
+    std::optional<RibTransform> named_camera;
+    size_t points = 0, archives = 0, inner_archives = 0;
+  } before_frame_;
   bool in_deferred_ = false, stopped_ = false;
   std::map<std::string, size_t> materials_, coats_;  // by content
   std::set<std::string> names_, warned_;

@@ -144,16 +144,30 @@ class PatchReader {
   void read_points(size_t parameters) {
     std::vector<std::string> undeclared;
     const std::vector<RibNamedValue> all = declarations_.parameters(request_, parameters, undeclared);
-    const RibNamedValue *p = find_parameter(all, "P"), *pw = find_parameter(all, "Pw");
-    const RibNamedValue* from = p ? p : pw;
-    components_ = p ? 3 : 4;
+    const RibNamedValue *p = find_parameter(all, "P"), *pw = find_parameter(all, "Pw"),
+                        *pz = find_parameter(all, "Pz");
+    const RibNamedValue* from = p ? p : pw ? pw : pz;
+    components_ = from == pz ? 1 : p ? 3 : 4;
     if (!from || from->value->kind != RibOperand::Kind::kFloats ||
         from->value->size() != components_ * count_[0] * count_[1])
-      request_.fail(fmt::format("parameter \"P\" or \"Pw\" must have {} points", count_[0] * count_[1]));
+      request_.fail(
+          fmt::format("parameter \"P\", \"Pw\" or \"Pz\" must have {} points", count_[0] * count_[1]));
     points_ = from->value->floats;
+    if (from == pz) raise_points();
     for (const float x : points_) {
       if (!(std::abs(x) < 1e18f)) request_.fail(*from->value, "a point is not finite or beyond 1e18");
     }
+  }
+
+  // "Pz" states heights above the unit square [RISPEC 3.2, Patch].
+  void raise_points() {
+    const std::vector<float> heights = std::move(points_);
+    points_.clear();
+    components_ = 3;
+    const size_t across = std::max<size_t>(count_[0] - 1, 1), up = std::max<size_t>(count_[1] - 1, 1);
+    for (size_t i = 0; i < heights.size(); ++i)
+      points_.insert(points_.end(), {static_cast<float>(i % count_[0]) / static_cast<float>(across),
+                                     static_cast<float>(i / count_[0]) / static_cast<float>(up), heights[i]});
   }
 
   V3f point(const Blend& u, const Blend& v) const {

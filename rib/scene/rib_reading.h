@@ -31,6 +31,10 @@ struct RibReadOptions {
   size_t max_request_bytes = size_t(4) << 30;  ///< memory of the arguments of one request
   /// Runs programs that the file names; null: such procedurals are skipped, with a warning.
   std::shared_ptr<RibPrograms> programs;
+  /// Called at the end of each frame; read_rib() then returns what is outside of frames, and all warnings.
+  /// `frame` must be empty and `geometry` false. Frames that only draw shadow maps are left out, unless the
+  /// file has no others.
+  std::function<void(const RibScene&)> each_frame;
   std::function<void(size_t bytes)> reserve;  ///< called with the bytes of all geometry so far; may throw
   std::function<void()> check_stop;           ///< called often; may throw
 };

@@ -49,6 +49,12 @@ struct RibMaterial {
   bool strand_opacity = false;  ///< the curves have the attribute "opacity", a factor of `opacity`
 };
 
+/// Returns the name of the material of a frame whose material of this name differs from that of the first
+/// frame.
+inline std::string frame_material(const std::string& name, int frame) {
+  return name + "@" + std::to_string(frame);
+}
+
 /// A light with its transform from light to world space.
 struct RibLight {
   enum class Shape { kPoint, kSphere, kPolygon, kMesh };
@@ -122,7 +128,8 @@ struct RibCamera {
 
 /// Everything that one frame of a RIB file describes, in world space.
 struct RibScene {
-  std::vector<int> frames;   ///< numbers of the requests FrameBegin; empty without any
+  std::optional<int>
+      frame;  ///< number of the frame that was read; nullopt: the file has no frames, or not this
   bool shadow_pass = false;  ///< the frame draws shadow maps only
   RibCamera camera;
   std::map<std::string, std::vector<RibSetting>> options;  ///< Option "pelage", by the name of the setting

@@ -46,6 +46,7 @@ constexpr Standard kStandard[] = {
     {"P", "vertex point"},
     {"Pz", "vertex float"},
     {"Pw", "vertex hpoint"},
+    {"Pz", "vertex float"},
     {"N", "varying normal"},
     {"Np", "uniform normal"},
     {"Cs", "varying color"},

@@ -69,13 +69,13 @@ TEST(RibExporters, ShadowPassesAreNoPictures) {
   RibScene scene =
       read(frame(1, shadow, 1) + "FrameBegin 2 Display \"y\" \"file\" \"rgb\" Translate 0 0 2 WorldBegin " +
            kHair + "WorldEnd FrameEnd");
-  EXPECT_EQ(scene.frames, (std::vector<int>{2}));
+  EXPECT_EQ(scene.frame, 2);
   EXPECT_EQ(scene.camera.to_camera.at(0).translation().z, 2);
   EXPECT_FALSE(scene.camera.screen_window) << "of another frame";
   EXPECT_FALSE(scene.shadow_pass);
   scene = read(frame(1, shadow, 1) + frame(2, shadow, 2));
   EXPECT_TRUE(scene.shadow_pass) << "better than nothing";
-  EXPECT_EQ(scene.frames, (std::vector<int>{1, 2}));
+  EXPECT_EQ(scene.frame, 1);
   EXPECT_EQ(scene.camera.to_camera.at(0).translation().z, 1);
 }
 

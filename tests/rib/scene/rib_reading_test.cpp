@@ -19,6 +19,9 @@ TEST(RibReading, TransformsApplyFromTheInnermost) {
   expect_near(tip("ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1] " + kHair), {5, 7, 7});
   expect_near(tip("Translate 9 9 9 Identity " + kHair), {0, 1, 0});
   expect_near(tip("Translate 9 9 9 Transform [2 0 0 0 0 2 0 0 0 0 2 0 0 0 1 1] " + kHair), {0, 2, 1});
+  expect_near(
+      tip("Translate 1 0 9 WorldBegin Translate 5 5 5 CoordSysTransform \"camera\" " + kHair + "WorldEnd"),
+      {-1, 1, -9});
   expect_near(tip("Translate 1 0 0 CoordinateSystem \"here\" Identity CoordSysTransform \"here\" " + kHair),
               {1, 1, 0});
 }
@@ -149,7 +152,7 @@ TEST(RibReading, FramesAreReadOneByOne) {
                            "WorldEnd FrameEnd FrameBegin 5 WorldBegin Translate 0 0 1 " + kHair +
                            "WorldEnd FrameEnd";
   RibScene scene = read(text);
-  EXPECT_EQ(scene.frames, (std::vector<int>{3, 5}));
+  EXPECT_EQ(scene.frame, 3);
   expect_near(tips(scene)[0], {0, 1, 0});
   RibReadOptions options;
   options.frame = 5;

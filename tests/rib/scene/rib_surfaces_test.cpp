@@ -102,6 +102,15 @@ TEST(RibSurfaces, PatchesInterpolateTheirBasis) {
   EXPECT_EQ(open_edges(sheet), 6u);
 }
 
+TEST(RibSurfaces, HeightsRiseAboveTheUnitSquare) {
+  const ControlMesh field =
+      patches("PatchMesh \"bilinear\" 3 \"nonperiodic\" 2 \"nonperiodic\" \"Pz\" [0 1 2 3 4 5]").cage;
+  EXPECT_EQ(field.face_count(), 2u);
+  EXPECT_NE(std::find(field.positions.begin(), field.positions.end(), V3f(.5f, 1, 4)), field.positions.end());
+  EXPECT_EQ(box_of(field).min, V3f(0));
+  EXPECT_EQ(box_of(field).max, V3f(1, 1, 5));
+}
+
 // A rational quarter of a circle, swept along z.
 TEST(RibSurfaces, NurbsMayBeRational) {
   const ControlMesh mesh = patches(
@@ -118,7 +127,7 @@ TEST(RibSurfaces, MistakesHavePositions) {
   EXPECT_EQ(failure("Patch \"biquadric\" " + kFlat),
             "a.rib:1:7: Patch: unknown type 'biquadric'; expected \"bilinear\" or \"bicubic\"");
   EXPECT_EQ(failure("Patch \"bicubic\" \"P\" [0 0 0]"),
-            "a.rib:1:1: Patch: parameter \"P\" or \"Pw\" must have 16 points");
+            "a.rib:1:1: Patch: parameter \"P\", \"Pw\" or \"Pz\" must have 16 points");
   EXPECT_EQ(failure("PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"nonperiodic\" " + kFlat),
             "a.rib:1:1: PatchMesh: 5 points do not form whole segments of a bicubic patch");
   EXPECT_NE(failure("NuPatch 3 9 [0 1] 0 1 2 2 [0 0 1 1] 0 1 " + kFlat).find("3 points of order 9 need"),
