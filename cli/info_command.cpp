@@ -7,6 +7,7 @@
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
 #include "geom/io/obj_file.h"
+#include "rib/document/rib_document.h"
 
 namespace pelage {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 std::string describe_file(const Options& options) {
   const std::filesystem::path path = options.input;
   const std::string kind = lower_extension(path);
-  if (kind == ".yaml" || kind == ".yml") {
+  if (kind == ".yaml" || kind == ".yml" || is_rib(path)) {
     ProgressDisplay display(options.progress, [] { return false; });
     return describe_scene(read_scene(options, display));
   }
@@ -26,7 +27,7 @@ std::string describe_file(const Options& options) {
   if (kind == ".exr") return describe_exr(read_exr(path));
   if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},
-              "unsupported file type; expected .yaml, .hair, .tfx, .obj, .exr or .cache");
+              "unsupported file type; expected .yaml, .rib, .hair, .tfx, .obj, .exr or .cache");
 }
 
 }  // namespace

@@ -57,6 +57,10 @@ std::string describe_item(const CrowdParams& crowd) {
   return fmt::format("{} of {}", crowd.count, text);
 }
 
+std::string describe_item(const ArchiveParams& archive) {
+  return fmt::format("{}, {} surfaces", archive.rib.path.string(), archive.materials.items.size());
+}
+
 std::string describe_item(const LightParams& light) { return kind_of(light); }
 std::string describe_item(const MaterialParams& material) { return kind_of(material); }
 
@@ -79,6 +83,7 @@ std::string describe_scene(const SceneDescription& scene) {
       section("skins", scene.skins) + section("grooms", scene.grooms) + section("materials", scene.materials);
   text += section("characters", scene.characters);
   if (!scene.crowds.items.empty()) text += section("crowds", scene.crowds);
+  if (!scene.archives.items.empty()) text += section("archives", scene.archives);
   return text + section("lights", scene.lights);
 }
 

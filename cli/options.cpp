@@ -117,7 +117,8 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* info = app.add_subcommand("info", "Describe a scene, strand file, mesh, EXR or cache file");
-  info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
+  info->add_option("FILE", options.input, "A .yaml, .rib, .hair, .tfx, .obj, .exr or .cache file")
+      ->required();
   info->add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");

@@ -102,6 +102,21 @@ std::vector<int> missing_frames(const Options& options, const FrameList& list, c
   return missing;
 }
 
+// Why a whole picture is black, if it is; empty if the scene has no light, which was said before.
+std::string why_black(const SceneDescription& scene, const FrameResult& result) {
+  bool sees = false;
+  for (int y = 0; y < result.film.height(); ++y) {
+    for (int x = 0; x < result.film.width(); ++x) {
+      if (max_component(result.film.radiance(x, y)) > 0) return {};
+      sees |= result.film.alpha(x, y) > 0;
+    }
+  }
+  if (!sees) return "the picture is empty: the camera sees no strand and no skin";
+  if (why_dark(scene)) return {};
+  return "the picture is black: no light reaches what the camera sees, because surfaces block it or are "
+         "black";
+}
+
 // Renders and writes one frame; returns whether it is complete. `checkpoint`: may be null.
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path,
                 FrameOptions how, Checkpoint* checkpoint, Run& run) {
@@ -121,6 +136,8 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
     run.display().note(checkpoint->file().string() + "  holds " + samples_text(result));
     return false;
   }
+  if (const std::string why = how.region || result.partial ? "" : why_black(scene, result); !why.empty())
+    run.display().warn(path + ": " + why);
   const double seconds = run.seconds() - began + (checkpoint ? checkpoint->earlier_s() : 0);
   trim_heap();  // the chunks of the frame are gone
   const std::string place = place_of(result, path);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
+#include "cli/commands.h"
 
 namespace pelage {
 namespace {
@@ -41,6 +42,22 @@ lights:
         "key: sphere\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
+}
+
+TEST(InfoScene, OutlinesRib) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "s.rib";
+  std::ofstream(path) << "WorldBegin LightSource \"ambientlight\" 1 Surface \"plastic\" Sphere 1 -1 1 360 "
+                         "WorldEnd";
+  Options options;
+  options.input = path;
+  options.progress = ProgressStyle::kQuiet;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_info(options), 0);
+  const std::string text = testing::internal::GetCapturedStdout();
+  for (const char* part : {": scene, 640 x 480 pixels", "plastic: lambert\n",
+                           "1 archives\n  s: ", "s.rib, 1 surfaces\n", "ambientlight: environment\n"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
 }  // namespace

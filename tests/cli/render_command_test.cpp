@@ -108,6 +108,28 @@ TEST_F(RenderCommandTest, ScenesWithoutLightAreNamed) {
   EXPECT_EQ(warnings({{"lights.key.intensity", "0"}, {"lights.sky.intensity", "{keys: {1: 0, 9: 1}}"}}), 0);
 }
 
+TEST_F(RenderCommandTest, BlackAndEmptyPicturesSayWhy) {
+  const auto said = [&](std::vector<Override> overrides) {
+    Options o = options("x.exr");
+    o.progress = ProgressStyle::kPlain;
+    o.overrides = std::move(overrides);
+    o.overrides.push_back({"render.samples", "1"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_render(o), 0);
+    const std::string shown = testing::internal::GetCapturedStderr();
+    return shown.substr(std::min(shown.find("the picture is "), shown.size()), 20);
+  };
+  EXPECT_EQ(said({}), "");
+  EXPECT_EQ(said({{"lights.sky", "null"}, {"camera.look_at", "[3, 2, 9]"}}), "the picture is empty");
+  EXPECT_EQ(said({{"camera.look_at", "[3, 2, 9]"}}), "") << "sky";
+  EXPECT_EQ(said({{"lights.sky", "null"},
+                  {"lights.key.position", "[1000, -1000, -1000]"},
+                  {"characters.walker", "null"},
+                  {"materials.hide.color", "0"}}),
+            "the picture is black");
+  EXPECT_EQ(said({{"lights", "{}"}}), "") << "the missing light is named before";
+}
+
 TEST_F(RenderCommandTest, OutputThatCannotBeWrittenIsFoundBeforeRendering) {
   Options o = options("x.exr");
   o.output = "/proc/none/x.exr";
