@@ -142,6 +142,7 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 // clears it with a function that it can see. Therefore arenas are created and destroyed one at a time here.
 // The tasks inside the arenas still run in any order.
 void Workers::run_library(const std::function<void()>& body) const {
+  const auto turn = team_ ? std::unique_lock(team_->one_loop) : std::unique_lock<std::mutex>();
   static std::mutex mutex;
   struct SerialArena {
     SerialArena() {
@@ -160,7 +161,10 @@ void Workers::run_library(const std::function<void()>& body) const {
 #else
 
 void Workers::run_library(const std::function<void()>& body) const {
-  if (team_) return team_->arena.execute(body);
+  if (team_) {
+    const std::lock_guard lock(team_->one_loop);
+    return team_->arena.execute(body);
+  }
   tbb::task_arena alone(1);
   alone.execute(body);
 }

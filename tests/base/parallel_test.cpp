@@ -84,6 +84,32 @@ TEST_P(WorkersOf, ServeTwoThreadsOneAfterTheOther) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST_P(WorkersOf, RunLibrariesBetweenLoops) {
+  const Workers workers(GetParam());
+  std::atomic<int> loops = 0, libraries = 0, wrong = 0;
+  const auto loop = [&] {
+    for (int repetition = 0; repetition < 20; ++repetition)
+      workers.for_each(20, 1, [&](WorkRange) {
+        ++loops;
+        wrong += libraries > 0;
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+        wrong += libraries > 0;
+        --loops;
+      });
+  };
+  std::thread other(loop);
+  for (int repetition = 0; repetition < 200; ++repetition)
+    workers.run_library([&] {
+      ++libraries;
+      wrong += loops > 0;
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+      wrong += loops > 0;
+      --libraries;
+    });
+  other.join();
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST_P(WorkersOf, StopAtTheFirstExceptionAndRethrowIt) {
   const Workers workers(GetParam());
   std::atomic<int> done = 0;
