@@ -57,7 +57,7 @@ FarmTask task_of(const Json& json) {
 struct PlanSummary {
   explicit PlanSummary(const FarmPlan& plan) {
     FrameList list{{}};
-    int columns = 0, boxes = 0, width = 0, height = 0;
+    int columns = 0, boxes = 0, width = 0, height = 0, top = 0;
     for (const FarmTask& task : plan.tasks) {
       if (!task.frame) continue;
       if (list.frames.empty() || list.frames.back() != *task.frame) list.frames.push_back(*task.frame);
@@ -65,8 +65,9 @@ struct PlanSummary {
       output =
           (plan.folder / task.output).lexically_normal().string();  // of the last task of the first frame
       if (!task.region) continue;
-      ++boxes;
-      columns += task.region->y0 == 0;
+      if (boxes++ == 0)
+        top = task.region->y0;  // of the first row, which a plan made by hand may begin anywhere
+      columns += task.region->y0 == top;
       width = std::max(width, task.region->x1);
       height = std::max(height, task.region->y1);
     }

@@ -69,6 +69,12 @@ TEST(ShotState, PlansOfOtherPicturesDifferInWhatTheyName) {
   FarmPlan changed = shot;
   changed.inputs["scene render.samples"] = "99";
   EXPECT_EQ(plan_differences(shot, changed), "`render.samples`");
+  FarmPlan lower = shot;
+  for (FarmTask& task : lower.tasks) {
+    if (task.region) task.region->y0 = 16;
+  }
+  EXPECT_EQ(plan_differences(longer, lower),
+            "frames (1-4 before, 1,2 now), regions (none before, 2x1 of 64 x 64 pixels now)");
 }
 
 TEST(ShotState, DamagedPlansAreRefusedByName) {
