@@ -69,12 +69,13 @@ void RibInterpreter::begin_frame(const Call& call) {
   begin_block(call);
 }
 
-// A frame that only draws shadow maps is no picture of the file's own, so the next frame may be.
+// A frame that only draws shadow maps is no picture of the file's own, so the next frame may be, also one
+// with the same number.
 void RibInterpreter::end_frame() {
   const bool is_picture = world_done_ || !skipped_shadows_;
   camera_ = before_frame_.camera;
   if (!options_.each_frame) {
-    if (!is_picture && !options_.frame) frame_done_ = false;
+    if (!is_picture) frame_done_ = false;
     return;
   }
   if (is_picture) options_.each_frame(scene_);

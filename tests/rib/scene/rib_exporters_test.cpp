@@ -73,6 +73,11 @@ TEST(RibExporters, ShadowPassesAreNoPictures) {
   EXPECT_EQ(scene.camera.to_camera.at(0).translation().z, 2);
   EXPECT_FALSE(scene.camera.screen_window) << "of another frame";
   EXPECT_FALSE(scene.shadow_pass);
+  RibReadOptions first;
+  first.frame = 1;
+  scene = read(frame(1, shadow, 1) + frame(1, picture, 3) + frame(2, picture, 2), first);
+  EXPECT_EQ(scene.camera.to_camera.at(0).translation().z, 3) << "some exporters number passes alike";
+  EXPECT_FALSE(scene.shadow_pass);
   scene = read(frame(1, shadow, 1) + frame(2, shadow, 2));
   EXPECT_TRUE(scene.shadow_pass) << "better than nothing";
   EXPECT_EQ(scene.frame, 1);
