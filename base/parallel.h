@@ -43,8 +43,8 @@ class Workers {
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 
   /// Calls `body` once. If `body` calls a library that uses TBB, this library runs only on the threads of
-  /// this pool, and takes turns with its loops. In the thread-sanitizer build, it runs only on the calling
-  /// thread.
+  /// this pool. Library calls take turns with loops, so a loop must not make one on its own pool. In the
+  /// thread-sanitizer build, the library runs only on the calling thread.
   void run_library(const std::function<void()>& body) const;
 
  private:

@@ -111,7 +111,7 @@ std::string why_black(const SceneDescription& scene, const FrameResult& result) 
       sees |= result.film.alpha(x, y) > 0;
     }
   }
-  if (!sees) return "the picture is empty: the camera sees no strand and no skin";
+  if (!sees) return "the picture is empty: no camera ray hits a strand or a skin";
   if (why_dark(scene)) return {};
   return "the picture is black: no light reaches what the camera sees, because surfaces block it or are "
          "black";
