@@ -49,10 +49,11 @@ LightChoices choices_at(const LightSet& set, const V3f& from) {
   return choices;
 }
 
-TEST(LightTree, ProbabilitiesSumToOneAndAreThoseOfUsefulLights) {
+TEST(LightTree, OnlyUsefulLightsHaveProbabilitiesAndFewAreLost) {
   for (const int near : {9, 10, 64, 300}) {
     const LightSet set = many_lights(near);
     TestRandom random(2);
+    double mean = 0;
     for (int i = 0; i < 50; ++i) {
       const V3f from = random.direction() * random.between(0, 9);
       const LightChoices choices = choices_at(set, from);
@@ -65,8 +66,9 @@ TEST(LightTree, ProbabilitiesSumToOneAndAreThoseOfUsefulLights) {
       }
       // A node whose lights all face away has an importance, but none of its lights is chosen.
       ASSERT_LE(sum, 1 + 1e-4);
-      ASSERT_GT(sum, 0.5);
+      mean += sum / 50;
     }
+    EXPECT_GT(mean, 0.8);
   }
 }
 
@@ -140,7 +142,7 @@ TEST(LightTree, ALightThatLobesPointAtIsChosenMoreOften) {
     before += set.probability(plain, k);
     after += set.probability(aimed, k);
   }
-  EXPECT_GT(after, 1.2 * before);
+  EXPECT_GT(after / (1 - after), 1.5 * before / (1 - before));
 }
 
 TEST(LightTree, GroupsAreFewAndContainAllLights) {
