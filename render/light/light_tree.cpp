@@ -151,7 +151,7 @@ LightTree::Choice LightTree::choose(uint32_t node, const V3f& from, float u) con
     probability *= p;
     node = takes_first ? node + 1 : second(node);
   }
-  return {nodes_[node].light, nodes_[node].leaf->importance(from) > 0 ? probability : 0.0f, u};
+  return {nodes_[node].light, probability, u};
 }
 
 LightTree::Place LightTree::find(size_t light, const V3f& from, std::span<const uint32_t> cut) const {

@@ -42,7 +42,7 @@ class LightTree {
     float probability = 0;  ///< given the node; 0 if no light was found
     float remapped = 0;     ///< `u` rescaled to [0, 1) within the choice
   };
-  /// Selects a light of a node. `u`: a random number in [0, 1).
+  /// Selects a light of a node whose importance() is positive. `u`: a random number in [0, 1).
   Choice choose(uint32_t node, const V3f& from, float u) const;
   /// Returns the node of `cut` that contains a light, as an index in `cut`, with the probability that
   /// choose() selects the light in this node. `light`: not infinitely far.
