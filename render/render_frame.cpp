@@ -51,6 +51,47 @@ class TighteningWatch final : public FrameWatch {
   FrameWatch& watch_;
 };
 
+/// Shows coarse pictures of a frame to its watch, see FrameWatch.
+class CoarsePictures {
+ public:
+  /// Reserves memory for the film, unless that would take more than a small part of the memory that is left.
+  /// Call before the geometry takes the rest.
+  CoarsePictures(const RenderScene& scene, const FrameScene& used, const Job& job)
+      : settings_(coarse_settings(used)), scene_(scene, settings_), layers_(film_layers(scene_)) {
+    constexpr int64_t kShare = 8;
+    const int width = scene_.image.width, height = scene_.image.height;
+    if (has_room(job.ledger, kShare * Film::bytes_needed(width, height, layers_)))
+      film_.emplace(width, height, layers_, job.ledger);
+  }
+  /// Renders and shows the pictures, and adds their times to `statistics`. Returns false when cancelled.
+  bool show(FrameGeometry& geometry, PathOptions path, const Job& job, FrameWatch& watch,
+            FrameStatistics& statistics) {
+    if (!film_) return true;
+    const Stopwatch clock;
+    const double growth_s = geometry.growth_cpu_s();
+    path.balls = nullptr;
+    const PathTracer tracer(scene_, geometry.accel(), film_->layers(), path);
+    const FrameWindow window =
+        frame_window(scene_.image.width, scene_.image.height, std::nullopt, layers_.splat);
+    FrameLoop loop(tracer, job, *film_, window, clock);
+    TighteningWatch tightening(geometry, job, watch);
+    const bool done =
+        SamplePasses(loop, scene_.render, job, clock, geometry.fits(), &tightening).run_coarse();
+    loop.add_to(statistics);
+    statistics.occlusion += loop.costs().occlusion;
+    statistics.cpu_s += render_seconds(loop.costs(), geometry.growth_cpu_s() - growth_s);
+    statistics.stages_s["coarse pictures"] += clock.seconds();
+    film_.reset();
+    return done;
+  }
+
+ private:
+  const FrameSettings settings_;
+  const FrameScene scene_;
+  const FilmLayers layers_;
+  std::optional<Film> film_;
+};
+
 /// The integrator of a frame, ready to trace tiles. `memory`: of the integrator `gather`. `costs` receives
 /// the costs of making it.
 std::unique_ptr<const TileIntegrator> make_integrator(const FrameScene& scene, const FrameGeometry& geometry,
@@ -97,6 +138,16 @@ bool prepare_shadows(const RenderScene& contents, const FrameScene& scene, Frame
 
 }  // namespace
 
+FrameSettings coarse_settings(const FrameScene& scene) {
+  FrameSettings settings{scene.image, scene.render};
+  settings.render.integrator = Integrator::kPath;
+  settings.render.samples = 1;
+  settings.render.time_limit = 0;
+  settings.render.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
+  settings.image.filter_samples = FilterSamples::kDrawn;
+  return settings;
+}
+
 void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region) {
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorKind::kArguments,
@@ -140,9 +191,14 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   FrameResult result{Film(width, height, layers, job.ledger), window};
   GatherTracer::Memory memory;
   if (used.render.integrator == Integrator::kGather) memory = GatherTracer::reserve(used, job);
+  std::optional<CoarsePictures> coarse;
+  if (used.render.integrator == Integrator::kGather && options.watch && !options.region)
+    coarse.emplace(scene, used, job);
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
   PathOptions path = options.path;
-  result.partial = !geometry || !prepare_shadows(scene, used, *geometry, job, path, result.statistics);
+  result.partial = !geometry ||
+                   (coarse && !coarse->show(*geometry, path, job, *options.watch, result.statistics)) ||
+                   !prepare_shadows(scene, used, *geometry, job, path, result.statistics);
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();

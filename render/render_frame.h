@@ -21,6 +21,9 @@ void check_region(const ImageParams& image, const RenderParams& render, const Pi
 /// adaptive sampling or a time limit. See FrameSaver.
 void check_saving(const RenderParams& render);
 
+/// Returns the settings of the coarse pictures by `path` that a watch sees before a frame by `gather`.
+FrameSettings coarse_settings(const FrameScene& scene);
+
 /// Renders one frame with the integrator of the scene (render.integrator) or of `options.settings`. First
 /// bounds all chunks. Then takes samples in passes over the whole picture (SamplePasses). A picture that is
 /// cancelled at any time is therefore valid, but has fewer samples.

@@ -12,6 +12,7 @@
 #include "base/job.h"
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_watch.h"
+#include "render/render_frame.h"
 #include "view/why_answer.h"
 #include "world/kept_render.h"
 #include "world/world.h"
@@ -21,16 +22,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Settings of the coarse pictures by `path` that are shown before the first picture by `gather`.
-FrameSettings preview_settings(const RenderScene& scene) {
-  FrameSettings settings{scene.image, scene.render};
-  settings.render.integrator = Integrator::kPath;
-  settings.render.samples = 1;
-  settings.render.skin_ball = SkinBallUse::kOff;  // finding them would delay the first picture
-  settings.image.filter_samples = FilterSamples::kDrawn;
-  return settings;
 }
 
 }  // namespace
@@ -52,15 +43,11 @@ struct LiveRenderer::Loaded {
 /// Publishes a picture after each pass.
 class LiveRenderer::Watch final : public FrameWatch {
  public:
-  /// `is_preview`: whether the picture has other settings than the scene.
-  Watch(LiveRenderer& renderer, const SceneEdit& edit, bool is_preview)
-      : renderer_(renderer), edit_(edit), is_preview_(is_preview) {}
+  Watch(LiveRenderer& renderer, const SceneEdit& edit) : renderer_(renderer), edit_(edit) {}
 
   void passed(const Film& film, const PassState& pass) override {
     publish(film, pass);
     answer_questions(film, pass);
-    // What follows is better seen in the picture itself.
-    if (is_preview_ && pass.grid <= 2) renderer_.preview_is_over_ = true;
   }
   std::optional<PixelBox> region() const override { return renderer_.state_.control().region(); }
   uint32_t region_version() const override { return renderer_.state_.control().region_version(); }
@@ -94,12 +81,12 @@ class LiveRenderer::Watch final : public FrameWatch {
   }
 
   /// Explains the picture on the screen: pixels have as many samples as so far. Until the first pass of
-  /// `gather` ends, the picture is the preview.
+  /// `gather` ends, the picture is a coarse one.
   void answer_questions(const Film& film, const PassState& pass) {
     const RenderScene& scene = renderer_.loaded_->world->scene;
     const bool gathers = scene.render.integrator == Integrator::kGather;
     renderer_.answer_questions([&](int x, int y) {
-      if (is_preview_ || (gathers && pass.grid == 0)) return preview_settings(scene);
+      if (pass.coarse || (gathers && pass.grid == 0)) return coarse_settings(scene);
       FrameSettings settings{scene.image, scene.render};
       const bool inside = x >= 0 && y >= 0 && x < film.width() && y < film.height();
       if (inside) settings.render.samples = static_cast<int>(std::max(film.samples(x, y), 1u));
@@ -109,13 +96,12 @@ class LiveRenderer::Watch final : public FrameWatch {
 
   LiveRenderer& renderer_;
   const SceneEdit& edit_;
-  const bool is_preview_;
 };
 
 LiveRenderer::LiveRenderer(ViewState& state, int threads)
     : state_(state),
       workers_(threads),
-      progress_(state, ledger_, [this] { return must_end() || preview_is_over_; }),
+      progress_(state, ledger_, [this] { return must_end(); }),
       loaded_(std::make_unique<Loaded>(ledger_, progress_)),
       thread_([this] { run(); }) {
   state_.why().on_ask([this] {
@@ -199,7 +185,6 @@ void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
     if (const auto dark = why_dark(edit->scene)) status.warnings.push_back(*dark);
   });
   began_ = true;
-  preview_is_over_ = false;
   progress_.reset();
   const Job job{workers_, ledger_, progress_};
   const Redo redo = loaded_->edit ? edit->redo_after(*loaded_->edit) : Redo::kAssets;
@@ -250,18 +235,7 @@ void LiveRenderer::forget() {
 }
 
 void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
-  const RenderScene& scene = loaded_->world->scene;
-  if (scene.render.integrator == Integrator::kGather) {
-    // The first pass of `gather` is a whole picture. Coarse ones with `path` come before it.
-    Watch watch(*this, edit, true);
-    FrameOptions options;
-    options.settings = preview_settings(scene);
-    options.watch = &watch;
-    trace(job, options);
-    preview_is_over_ = false;
-    if (must_end()) return;
-  }
-  Watch watch(*this, edit, false);
+  Watch watch(*this, edit);
   FrameOptions options;
   options.watch = &watch;
   FrameResult result = trace(job, options);

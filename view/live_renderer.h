@@ -61,8 +61,7 @@ class LiveRenderer {
   Workers workers_;
   std::atomic<bool> waiting_{false};  // next_ is not null
   std::atomic<bool> stopped_{false};
-  std::atomic<bool> preview_is_over_{false};  // true: the render of the preview must end
-  StageProgress progress_;                    // before loaded_: chunks that are kept may warn
+  StageProgress progress_;  // before loaded_: chunks that are kept may warn
   // Used by thread_ only.
   std::unique_ptr<Loaded> loaded_;
   bool began_ = false;   // whether an edit was rendered before

@@ -12,9 +12,10 @@ namespace pelage {
 struct PassState {
   uint32_t samples = 0;     ///< min sample count over the traced pixels
   double mean_samples = 0;  ///< mean sample count over the traced pixels
-  int grid = 1;   ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
-                  ///< samples; 0: no pass over the whole picture has ended
-  PixelBox full;  ///< all pixels of this box have samples, whatever `grid` is; may be empty
+  int grid = 1;  ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
+                 ///< samples; 0: no pass over the whole picture has ended
+  bool coarse = false;  ///< the film is that of FrameWatch's coarse pictures, not the frame's
+  PixelBox full;        ///< all pixels of this box have samples, whatever `grid` is; may be empty
 };
 
 /// Sees a frame while it is rendered. The calls are made on the thread that renders, between two passes, when
@@ -26,7 +27,10 @@ struct PassState {
 /// their samples matters.
 ///
 /// With a watch, the passes are shorter. With the integrator `path`, the first sample of every pixel is taken
-/// on grids of 8, 4 and 2 pixels first, unless samples are splatted. The film is the same in the end.
+/// on grids of 8, 4 and 2 pixels first, unless samples are splatted. With `gather`, coarse pictures on such
+/// grids come before the skin balls and the reflection cache, which take long: `path` makes them with
+/// coarse_settings(), in a film of their own, which is then freed. They are left out for a region of the
+/// picture and where memory is short. The film of the frame is the same in the end.
 class FrameWatch {
  public:
   virtual ~FrameWatch() = default;

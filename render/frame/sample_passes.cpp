@@ -58,7 +58,9 @@ SamplePasses::SamplePasses(FrameLoop& loop, const RenderParams& params, const Jo
         return watch_->region_version() != region_seen_ || watch_->pause_version() != pause_seen_;
       } : std::function<bool()>()) {}
 
-PassState SamplePasses::state() const { return {loop_.min_samples(), loop_.mean_samples(), grid_, full_}; }
+PassState SamplePasses::state() const {
+  return {loop_.min_samples(), loop_.mean_samples(), grid_, coarse_, full_};
+}
 
 void SamplePasses::tell_watch() {
   if (watch_) watch_->passed(loop_.film(), state());
@@ -136,6 +138,12 @@ SamplePasses::End SamplePasses::run() {
   }
   job_.progress.end();
   return {end == PassEnd::kCancelled, cut_ || end == PassEnd::kOutOfTime};
+}
+
+bool SamplePasses::run_coarse() {
+  coarse_ = true;
+  const ProgressStage stage(job_.progress, "coarse pictures", loop_.traced_count() / 4);
+  return coarse_passes() != PassEnd::kCancelled;
 }
 
 PassEnd SamplePasses::uniform(uint32_t samples) {

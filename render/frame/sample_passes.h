@@ -44,6 +44,9 @@ class SamplePasses {
   };
   /// Takes all samples of the frame.
   End run();
+  /// Takes only the first samples of the pixels on grids of 8, 4 and 2 pixels, for a watch that sees them as
+  /// PassState::coarse. Returns false when cancelled.
+  bool run_coarse();
 
  private:
   /// Makes one pass and tells the watch, unless the pass is cancelled. `grid`: see PassState. A new region of
@@ -79,6 +82,7 @@ class SamplePasses {
   uint32_t region_refined_ = 0;  // version of the region that refine_region() has finished
   uint32_t pause_seen_ = 0;      // version of the watch's last pause
   int grid_ = 0;                 // PassState::grid of the last pass over the whole picture; 0: none so far
+  bool coarse_ = false;          // see PassState
   PixelBox full_;                // see PassState
   bool cut_ = false;             // counts were scaled down to fit the time limit
 };

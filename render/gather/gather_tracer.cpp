@@ -23,8 +23,7 @@ constexpr int64_t kMemoryShare = 8;
 
 /// Max count of samples per pixel of the scene that share light.
 uint32_t samples_at_once(const FrameScene& scene) {
-  return std::min(GatherTracer::max_samples(scene.lights.size()),
-                  static_cast<uint32_t>(scene.render.samples));
+  return std::min(GatherTracer::max_samples(scene.sources()), static_cast<uint32_t>(scene.render.samples));
 }
 
 }  // namespace
@@ -50,8 +49,8 @@ struct GatherTracer::Scratch final : SampleScratch {
 
 GatherTracer::Memory GatherTracer::reserve(const FrameScene& scene, const Job& job) {
   const RenderParams& render = scene.render;
-  const auto tile = static_cast<int64_t>(
-      scratch_bytes(scene.lights.size(), samples_at_once(scene), render.draws_visible()));
+  const auto tile =
+      static_cast<int64_t>(scratch_bytes(scene.sources(), samples_at_once(scene), render.draws_visible()));
   const auto limit = static_cast<int64_t>(render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
@@ -98,7 +97,7 @@ uint32_t GatherTracer::max_samples(size_t lights) {
 }
 
 uint32_t GatherTracer::together(uint32_t first, uint32_t end) const {
-  const uint32_t max = first == 0 && first_alone_ ? 1 : max_samples(scene_.lights.size());
+  const uint32_t max = first == 0 && first_alone_ ? 1 : max_samples(scene_.sources());
   return std::min(max, end - first);
 }
 
@@ -137,14 +136,14 @@ bool GatherTracer::trace_tile(const TileTask& task, SampleScratch& memory) const
 bool GatherTracer::gather(const Tile& tile, uint32_t first, uint32_t count, const Job& job,
                           Scratch& scratch) const {
   TileSamples& samples = scratch.samples;
-  const size_t lights = scene_.lights.size();
+  const size_t lights = scene_.sources();
   const bool reuse = scene_.render.gather.reuse;
   samples.begin(tile, count, lights);
   samples.random_key = hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(tile.x0),
                               static_cast<uint32_t>(tile.y0), first);
   scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.look.clear();
-  scratch.lights.begin(lights);
+  scratch.lights.begin(lights, scene_.lights.groups());
   if (raster_) {
     const double began_s = thread_cpu_seconds();
     if (!raster_->find(tile, first, count, job, scratch.thread.worker, scratch.raster)) return false;
@@ -195,8 +194,8 @@ bool GatherTracer::look(uint32_t first, uint32_t count, const Job& job, Scratch&
 /// Adds the light that a visible point scatters to `scratch.sample` and `scratch.by_layer`.
 void GatherTracer::add_scattered(uint32_t point, Scratch& scratch) const {
   const VisiblePoint& at = scratch.samples.points[point];
-  const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.lights.size() * kLobeGroups];
-  for (size_t light = 0; light < scene_.lights.size(); ++light) {
+  const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.sources() * kLobeGroups];
+  for (size_t light = 0; light < scene_.sources(); ++light) {
     for (int g = 0; g < kLobeGroups; ++g) {
       const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.gather_point, light, g);
       const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.gather_point, light, g);

@@ -14,11 +14,15 @@ constexpr uint32_t kPathsPerCheck = 256;  // whether to stop
 
 }  // namespace
 
-/// A sink of PathWalk: sums up the light that arrives along the first ray of a path, by light.
+/// A sink of PathWalk: sums up the light that arrives along the first ray of a path, by source.
 class IndirectPaths::ArrivingLight {
  public:
-  ArrivingLight(const ReflectionCache* cache, Scratch& scratch, IndirectClamp& clamp)
-      : cache_(cache), arriving_(scratch.arriving), counts_(scratch.reflections), clamp_(clamp) {}
+  ArrivingLight(const FrameScene& scene, const ReflectionCache* cache, Scratch& scratch, IndirectClamp& clamp)
+      : scene_(scene),
+        cache_(cache),
+        arriving_(scratch.arriving),
+        counts_(scratch.reflections),
+        clamp_(clamp) {}
 
   /// Ends the path at its second surface, after shadow rays, if the cache knows what else this surface
   /// reflects.
@@ -28,15 +32,16 @@ class IndirectPaths::ArrivingLight {
     ++counts_.lookups;
     if (!reflected) return Arrival::kGoOn;
     ++counts_.found;
-    for (size_t light = 0; light < arriving_.size(); ++light) add(path, light, reflected[light]);
+    for (size_t source = 0; source < arriving_.size(); ++source) add(path, source, reflected[source]);
     return Arrival::kShadowRays;
   }
 
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
-    if (through > 0) add(path, from.light, from.value.total() * from.arriving * (through * factor));
+    if (through > 0)
+      add(path, scene_.source(from.light), from.value.total() * from.arriving * (through * factor));
   }
   void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
-    if (weight * through > 0) add(path, light, radiance * (weight * through));
+    if (weight * through > 0) add(path, scene_.source(light), radiance * (weight * through));
   }
 
  private:
@@ -45,6 +50,7 @@ class IndirectPaths::ArrivingLight {
     arriving_[source] += arriving * clamp_.keep(path.first, arriving);
   }
 
+  const FrameScene& scene_;
   const ReflectionCache* cache_;
   std::vector<Rgb>& arriving_;
   ReflectionStatistics& counts_;
@@ -85,8 +91,8 @@ void IndirectPaths::follow(const TileSamples& samples, const VisiblePoint& point
   path.random = point.random;
   std::copy(std::begin(point.weights), std::end(point.weights), path.first);
   path.weight = point.weight() * factor;
-  scratch.arriving.assign(scene_.lights.size(), Rgb(0));
-  ArrivingLight sink(cache_ ? &*cache_ : nullptr, scratch, thread.clamp);
+  scratch.arriving.assign(scene_.sources(), Rgb(0));
+  ArrivingLight sink(scene_, cache_ ? &*cache_ : nullptr, scratch, thread.clamp);
   walk_.follow(point.ray(point.scattered), path, scratch.direct, thread, sink);
 }
 

@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-void LightSharing::begin(size_t lights) {
+void LightSharing::begin(size_t lights, size_t groups) {
   lights_ = lights;
-  guess_.begin(lights);
+  guess_.begin(groups);
   gather_points_.clear();
 }
 

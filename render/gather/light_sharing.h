@@ -29,8 +29,8 @@ namespace pelage {
 /// this choice cancels.
 class LightSharing {
  public:
-  /// Starts a tile.
-  void begin(size_t lights);
+  /// Starts a tile. `groups`: count of groups of lights that the guess tells apart.
+  void begin(size_t lights, size_t groups);
 
   // Gather points have the indices 0, 1, 2 ... They may be added in any order.
   /// Adds unoccluded light of one visible point, by lobe group, to U of its gather point.

@@ -15,10 +15,12 @@ constexpr double kDarkest = 0.1;
 constexpr uint32_t kRaysPerCheck = 256;  // whether to stop
 
 /// Guess of the fraction of light that arrives along a ray. Never so small that a pixel gets too few rays.
-float chance(const TileSamples& samples, const LightRay& ray, const ArrivalGuess& guess) {
+float chance(const FrameScene& scene, const TileSamples& samples, const LightRay& ray,
+             const ArrivalGuess& guess) {
   constexpr float kLeast = 0.02f;
   const uint32_t zone = samples.zone(samples.points[ray.point]);
-  return std::max(guess.fraction(zone, ray.light, ArrivalGuess::range_of(ray.ray.direction)), kLeast);
+  return std::max(guess.fraction(zone, scene.group(ray.light), ArrivalGuess::range_of(ray.ray.direction)),
+                  kLeast);
 }
 
 }  // namespace
@@ -34,10 +36,10 @@ double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scra
     const VisiblePoint& point = samples.points[ray.point];
     const LightRay* before = i > first ? &ray - 1 : nullptr;
     if (!before || before->point != ray.point || before->light != ray.light) {
-      const size_t lobes = (ray.point * scene_.lights.size() + ray.light) * kLobeGroups;
+      const size_t lobes = (ray.point * scene_.sources() + ray.light) * kLobeGroups;
       light.add_unoccluded(point.gather_point, ray.light, &samples.unoccluded[lobes]);
     }
-    const double expected = ray.unoccluded * chance(samples, ray, light.guess());
+    const double expected = ray.unoccluded * chance(scene_, samples, ray, light.guess());
     scratch.pixel_light[point.pixel] += expected;
     sum += expected;
   }
@@ -56,7 +58,7 @@ double ShadowRays::weigh(const TileSamples& samples, double darkest, const Arriv
   for (size_t i = 0; i < order.size(); ++i) {
     const LightRay& ray = samples.light_rays[order[i]];
     const VisiblePoint& point = samples.points[ray.point];
-    const float deviation = ray.unoccluded * guess.deviation(samples.zone(point), ray.light,
+    const float deviation = ray.unoccluded * guess.deviation(samples.zone(point), scene_.group(ray.light),
                                                              ArrivalGuess::range_of(ray.ray.direction));
     const double unit = reuse ? scratch.pixel_light[point.pixel] + darkest : 1;
     scratch.masses[i] = static_cast<float>(deviation / unit);
@@ -80,7 +82,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   const size_t count = samples.light_rays.size() - first;
   if (count == 0) return true;
   const double tile_light = add_unoccluded(samples, first, scratch, light);
-  const size_t lights = scene_.lights.size(), gather_points = samples.zone_of_gather_point.size();
+  const size_t lights = scene_.sources(), gather_points = samples.zone_of_gather_point.size();
   scratch.order.sort(first, count, gather_points * lights, [&](size_t i) {
     const LightRay& ray = samples.light_rays[i];
     return samples.points[ray.point].gather_point * lights + ray.light;
@@ -115,7 +117,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       }
       const uint32_t zone = samples.zone(samples.points[ray.point]);
       const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
-      const float expected = guesses_ ? light.guess().fraction(zone, ray.light, range) : 0.0f;
+      const float expected = guesses_ ? light.guess().fraction(zone, scene_.group(ray.light), range) : 0.0f;
       light.add_arriving(gather_point, ray.light, ray.lobes, factor * (through - expected));
     }
   }
@@ -127,7 +129,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
 /// own rays.
 void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const {
   ArrivalGuess& guess = light.guess();
-  const size_t lights = scene_.lights.size();
+  const size_t lights = scene_.sources();
   const auto& pilots = scratch.pilots;
   const auto gather_point_of = [&](uint32_t ray) {
     return samples.points[samples.light_rays[ray].point].gather_point;
@@ -138,19 +140,20 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
   };
   for (const Pilot& pilot : pilots) {
     add(pilot, [&](const LightRay& ray, uint32_t range, double luminance) {
-      guess.add(samples.zone(samples.points[ray.point]), ray.light, range, luminance, pilot.through);
+      guess.add(samples.zone(samples.points[ray.point]), scene_.group(ray.light), range, luminance,
+                pilot.through);
     });
   }
   constexpr size_t kAll = ArrivalGuess::kRanges;  // index of the sums over all ranges
   const auto own = [&](size_t light_index, size_t range) -> ArrivalGuess::Sums& {
-    return scratch.own[light_index * (kAll + 1) + range];
+    return scratch.own[scene_.group(light_index) * (kAll + 1) + range];
   };
   size_t next = 0;
   for (uint32_t gather_point = 0; gather_point < samples.zone_of_gather_point.size(); ++gather_point) {
     const std::span<const uint32_t> items = scratch.order.groups(gather_point * lights, lights);
     if (items.empty()) continue;
     const size_t begin = next;
-    scratch.own.assign(lights * (kAll + 1), {});
+    scratch.own.assign(scene_.lights.groups() * (kAll + 1), {});
     for (; next < pilots.size() && gather_point_of(pilots[next].ray) == gather_point; ++next) {
       add(pilots[next], [&](const LightRay& ray, uint32_t range, double luminance) {
         own(ray.light, range).add(luminance, pilots[next].through);
@@ -159,9 +162,10 @@ void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, Ligh
     }
     const auto expected = [&](const LightRay& ray) {
       const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
-      return guesses_ ? guess.fraction_without(samples.zone_of_gather_point[gather_point], ray.light, range,
-                                               own(ray.light, range), own(ray.light, kAll))
-                      : 0.0f;
+      return guesses_
+                 ? guess.fraction_without(samples.zone_of_gather_point[gather_point], scene_.group(ray.light),
+                                          range, own(ray.light, range), own(ray.light, kAll))
+                 : 0.0f;
     };
     for (const uint32_t index : items) {
       const LightRay& ray = samples.light_rays[index];

@@ -33,11 +33,12 @@ class ShadowRays {
     float through = 0;  ///< fraction that the ray transmits
   };
   struct Scratch {
-    GatherPointOrder order;               // candidate rays, sorted by gather point and light
-    std::vector<float> masses;            // masses for SystematicChoice of the rays in `order`
-    std::vector<double> pixel_light;      // direct luminance that is expected to reach the camera, by pixel
-    std::vector<Pilot> pilots;            // rays of the first call that were traced
-    std::vector<ArrivalGuess::Sums> own;  // of the rays of one gather point, by light and range of directions
+    GatherPointOrder order;           // candidate rays, sorted by gather point and light
+    std::vector<float> masses;        // masses for SystematicChoice of the rays in `order`
+    std::vector<double> pixel_light;  // direct luminance that is expected to reach the camera, by pixel
+    std::vector<Pilot> pilots;        // rays of the first call that were traced
+    std::vector<ArrivalGuess::Sums>
+        own;  // of the rays of one gather point, by group of lights and range of directions
   };
 
   /// Chooses some of the rays of `samples.light_rays` from index `first` on. Traces the chosen rays and adds

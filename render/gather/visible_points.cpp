@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gather/visible_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,7 +50,16 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   tile.samples.push_back({from.offset, pixel});
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
-                tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
+                const auto source = static_cast<uint32_t>(scene_.source(light));
+                auto& seen = tile.seen_lights;
+                const auto same = std::find_if(seen.rbegin(), seen.rend(), [&](const auto& other) {
+                  return other.sample != index || other.light == source;
+                });
+                if (same != seen.rend() && same->sample == index) {
+                  same->radiance += radiance;
+                } else {
+                  seen.push_back({index, source, radiance});
+                }
               });
   if (!hit) return;
   tile.samples.back().point = static_cast<uint32_t>(tile.points.size());
@@ -87,13 +97,14 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
 /// point.
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
                                SampleScratch& thread, VisiblePoint& visible, TileSamples& tile) const {
-  const size_t lights = scene_.lights.size();
+  const size_t lights = scene_.sources();
   const size_t first = tile.unoccluded.size();
   tile.unoccluded.resize(first + lights * kLobeGroups, Rgb(0));
   scratch.candidates.clear();
   scratch.masses.assign(lights, 0);
-  const auto propose = [&](size_t light, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
+  const auto propose = [&](size_t of, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
                            float distance) {
+    const size_t light = scene_.source(of);
     Candidate candidate;
     Rgb total(0);
     for (int g = 0; g < kLobeGroups; ++g) {
@@ -140,10 +151,11 @@ void VisiblePoints::expect_light(const VisiblePoint& visible, uint32_t zone, Scr
   const ArrivalGuess& guess = sharing.guess();
   for (Candidate& candidate : scratch.candidates) {
     const uint32_t range = ArrivalGuess::range_of(candidate.direction);
-    candidate.deviation = guess.deviation(zone, candidate.light, range);
+    const size_t group = scene_.group(candidate.light);
+    candidate.deviation = guess.deviation(zone, group, range);
     scratch.masses[candidate.light] += candidate.mass * candidate.deviation;
     if (!scene_.render.gather.reuse) continue;
-    const float fraction = guess.fraction(zone, candidate.light, range);
+    const float fraction = guess.fraction(zone, group, range);
     if (fraction > 0) sharing.add_arriving(visible.gather_point, candidate.light, candidate.lobes, fraction);
   }
 }

@@ -46,7 +46,7 @@ struct LightPoint {
 
 /// Memory of one thread, reused for each scatter point.
 struct DirectLightScratch {
-  std::vector<float> probabilities;  ///< probability of selecting each light at the current point
+  LightChoices choices;  ///< the current point's
   std::vector<LightPoint> points;
   uint32_t proved = 0;  ///< count of candidates that the last propose() left out because the skin blocks them
 };
@@ -83,9 +83,8 @@ class DirectLight {
 
   /// Computes the probability of selecting each light at a scatter point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
-    scratch.probabilities.resize(lights_.size());
-    lights_.probabilities(
-        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
+    lights_.prepare(
+        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.choices);
   }
 
   /// Samples candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
@@ -153,7 +152,7 @@ template <class LobePdf>
 std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, const V2f& u,
                                                    const LobePdf& lobe_pdf,
                                                    DirectLightScratch& scratch) const {
-  const LightSet::Choice choice = LightSet::choose(scratch.probabilities, u.x);
+  const LightSet::Choice choice = lights_.choose(scratch.choices, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
   const V2f place(choice.remapped, u.y);
   const auto seen = far_ ? far_->sample(choice.light, point.position(), place)
@@ -198,18 +197,17 @@ template <class Found>
 void DirectLight::find_lights(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
                               const DirectLightScratch& scratch, const Found& found) const {
   const V3f from = point.exit().origin(direction);
-  for (size_t i = 0; i < lights_.size(); ++i) {
+  lights_.on_ray(from, direction, distance, [&](size_t i) {
     const Light& light = lights_.light(i);
-    if (light.is_infinitely_far() && std::isfinite(distance)) continue;
     const auto hit = light.intersect(from, direction);
-    if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) continue;
+    if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) return;
     float weight = 1;
     if (techniques_ == DirectTechniques::kBoth) {
-      const float pdf = scratch.probabilities[i] * point.exit().pdf(light, direction, *hit);
+      const float pdf = lights_.probability(scratch.choices, i) * point.exit().pdf(light, direction, *hit);
       weight = power_weight(lobe_pdf, competing_pdf(pdf, hit->distance));
     }
     found(i, *hit, weight);
-  }
+  });
 }
 
 }  // namespace pelage

@@ -32,7 +32,7 @@ class EnvironmentLight final : public Light {
   float pdf_of_hit(const V3f& from, const V3f& direction, const LightHit& hit) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from) const override;
-  std::optional<V3f> middle(const V3f&) const override { return std::nullopt; }
+  std::optional<LightBall> ball() const override { return std::nullopt; }
 
  private:
   V3f to_map(const V3f& world) const;

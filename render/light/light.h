@@ -26,6 +26,12 @@ struct LightHit {
   V3f normal{0};  ///< as LightSample::normal
 };
 
+/// A ball around a light.
+struct LightBall {
+  V3f center{0};
+  float radius = 0;
+};
+
 /// An emitter with an area, or an environment. World space. Immutable. Thread safety: const members may be
 /// called from any thread.
 class Light {
@@ -52,8 +58,8 @@ class Light {
   /// Returns the weight for selecting among lights: solid angle * mean luminance of the light, as seen from
   /// `from` ["Rendering Fur in Life of Pi", stochastic light selection].
   virtual float importance(const V3f& from) const = 0;
-  /// Returns the unit direction from `from` to the centre of the light; empty for an environment.
-  virtual std::optional<V3f> middle(const V3f& from) const = 0;
+  /// Returns the smallest ball around the light; empty if the light is infinitely far away.
+  virtual std::optional<LightBall> ball() const = 0;
 
  protected:
   Light(std::string name, bool visible) : name_(std::move(name)), visible_(visible) {}

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "render/light/light.h"
+#include "render/light/light_tree.h"
 #include "render/sampling/warp.h"
 
 namespace pelage {
+
+/// The probabilities of selecting each light at one point: memory of LightSet::prepare(), reused.
+struct LightChoices {
+  V3f from{0};
+  std::vector<float> probabilities;  ///< of each light; with a tree, of each far light and each node of `cut`
+  std::vector<uint32_t> cut;         ///< nodes of the tree
+};
 
 /// The lights of a scene, and random selection among them. For MIS, callers must multiply the pdf of a light
 /// by the probability of selecting the light, also when a scattered ray hits the light by chance. Thread
@@ -49,18 +58,83 @@ class LightSet {
     importances(from, out);
     for (size_t i = 0; i < size() && size() > 1; ++i) {
       if (!(out[i] > 0.0f)) continue;
-      const std::optional<V3f> middle = lights_[i]->middle(from);
-      if (middle) out[i] *= 0.5f + 0.5f * (4 * kPi * lobes(*middle));
+      const std::optional<LightBall> ball = lights_[i]->ball();
+      if (ball) out[i] *= towards_lobes(ball->center - from, lobes);
     }
     normalise(out);
   }
 
+  /// Scenes with more lights at finite distances select among nodes of a tree, and then within the node.
+  static constexpr size_t kMaxListed = 8;
+
+  /// Computes the probabilities of selecting each light at a point. With up to kMaxListed lights at
+  /// finite distances, they are those of probabilities(). Otherwise, the first choice is among far lights and
+  /// nodes of a cut of the tree, by the same rule, and the tree chooses the light. So `lobes` is called at
+  /// most LightTree::kMaxCut times.
+  template <class Density>
+  void prepare(const V3f& from, const Density& lobes, LightChoices& choices) const;
+  /// Selects a light, as choose() above.
+  Choice choose(const LightChoices& choices, float u) const;
+  /// Returns the probability that choose() selects a light.
+  float probability(const LightChoices& choices, size_t light) const;
+
+  /// Calls `visit(light)` for all lights that a ray may meet, and perhaps for others. `distance`: length of
+  /// the ray; if it is finite, lights that are infinitely far are left out.
+  template <class Visit>
+  void on_ray(const V3f& origin, const V3f& direction, float distance, const Visit& visit) const;
+
+  /// Lights are divided into groups, for estimates that need not know each light. With up to kMaxListed
+  /// lights at finite distances, each light is a group. Otherwise, the far lights are one group, and
+  /// neighbours are others.
+  size_t groups() const { return group_count_; }
+  size_t group(size_t light) const { return groups_[light]; }
+
  private:
+  /// Factor of the importance of a light for the scattering in its direction, see probabilities().
+  template <class Density>
+  static float towards_lobes(const V3f& to, const Density& lobes) {
+    return to == V3f(0) ? 1.0f : 0.5f + 0.5f * (4 * kPi * lobes(to.normalized()));
+  }
   void importances(const V3f& from, std::span<float> out) const;
   /// Converts importances to probabilities in place.
   static void normalise(std::span<float> out);
 
   std::vector<std::unique_ptr<Light>> lights_;
+  LightTree tree_;                // empty with up to kMaxListed lights at finite distances
+  std::vector<uint32_t> far_;     // lights that are infinitely far
+  std::vector<uint32_t> groups_;  // by light
+  size_t group_count_ = 0;
 };
+
+template <class Density>
+void LightSet::prepare(const V3f& from, const Density& lobes, LightChoices& choices) const {
+  choices.from = from;
+  if (tree_.empty()) {
+    choices.probabilities.resize(size());
+    probabilities(from, lobes, choices.probabilities);
+    return;
+  }
+  tree_.cut(from, choices.cut);
+  choices.probabilities.clear();
+  for (const uint32_t light : far_) choices.probabilities.push_back(lights_[light]->importance(from));
+  for (const uint32_t node : choices.cut) {
+    const float importance = tree_.importance(node, from);
+    const float lobe = importance > 0 ? towards_lobes(tree_.center(node) - from, lobes) : 0.0f;
+    choices.probabilities.push_back(importance * lobe);
+  }
+  normalise(choices.probabilities);
+}
+
+template <class Visit>
+void LightSet::on_ray(const V3f& origin, const V3f& direction, float distance, const Visit& visit) const {
+  if (tree_.empty()) {
+    for (size_t i = 0; i < size(); ++i) {
+      if (!lights_[i]->is_infinitely_far() || std::isinf(distance)) visit(i);
+    }
+    return;
+  }
+  for (size_t i = 0; std::isinf(distance) && i < far_.size(); ++i) visit(size_t{far_[i]});
+  tree_.on_line(origin, direction, visit);
+}
 
 }  // namespace pelage

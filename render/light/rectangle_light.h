@@ -23,7 +23,9 @@ class RectangleLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from) const override;
-  std::optional<V3f> middle(const V3f& from) const override { return (shape_.center - from).normalized(); }
+  std::optional<LightBall> ball() const override {
+    return LightBall{shape_.center, shape_.half_size.length()};
+  }
 
   /// Returns the solid angle of the rectangle seen from `from`, in steradians, for either side.
   double solid_angle(const V3f& from) const;

@@ -15,7 +15,7 @@ class SphereLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from) const override;
-  std::optional<V3f> middle(const V3f& from) const override { return (center_ - from).normalized(); }
+  std::optional<LightBall> ball() const override { return LightBall{center_, radius_}; }
 
   /// Returns the solid angle of the sphere seen from `from`, in steradians; 4 pi if `from` is inside.
   float solid_angle(const V3f& from) const;

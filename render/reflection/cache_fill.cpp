@@ -40,13 +40,13 @@ CacheFill::CacheFill(const FrameScene& scene, const Accel& accel, bool splatted,
 void CacheFill::run(const Job& job, const Stopwatch& clock, std::optional<ReflectionCache>& cache) {
   const CachePlan& plan = memory_.plan;
   scratch_ = std::vector<ReflectionPaths::Scratch>(static_cast<size_t>(job.workers.thread_count()));
-  if (plan.slices > 1) slots_.emplace(scene_.lights.size(), plan.max_cells, plan.density());
+  if (plan.slices > 1) slots_.emplace(scene_.sources(), plan.max_cells, plan.density());
   start_s_ = clock.seconds();
   job.progress.begin("reflection cache", 1);
   CellRange range(CellRange::kAll / plan.slices);
   while (!range.is_over()) {
     const size_t batch = plan.batch * CacheRounds(scene_.render).cells_of_tile();
-    ReflectionTable sum(scene_.lights.size(), plan.room + batch, smallest_);
+    ReflectionTable sum(scene_.sources(), plan.room + batch, smallest_);
     switch (fill_slice(range, job, clock, sum)) {
       case SliceEnd::kCancelled:
         return;
@@ -106,7 +106,7 @@ PassEnd CacheFill::trace_batch(const std::vector<Tile>& batch, const ReflectionP
   const size_t room = CacheRounds(scene_.render).cells_of_tile();
   std::map<int, ReflectionTable> tables;
   for (const Tile& tile : batch)
-    tables.emplace(place(tile), ReflectionTable(scene_.lights.size(), room, smallest_));
+    tables.emplace(place(tile), ReflectionTable(scene_.sources(), room, smallest_));
   const PassEnd end = trace_tiles(batch, job, clock, end_s, [&](const Tile& tile, int worker) {
     ReflectionPaths::Scratch& scratch = scratch_[static_cast<size_t>(worker)];
     const TileTimer timer(scratch.costs);
@@ -140,7 +140,7 @@ void CacheFill::finish_slice(const CellRange& range, ReflectionTable sum) {
     ++cells_[cell.level];
     if (cell.level + 1 == cells_.size()) counts_.paths += cell.paths;
   }
-  if (range.is_all()) slots_.emplace(scene_.lights.size(), sum.size());
+  if (range.is_all()) slots_.emplace(scene_.sources(), sum.size());
   slots_->add(sum, ReflectionCache::kFewestPaths);
   ++counts_.slices;
 }

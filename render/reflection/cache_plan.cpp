@@ -63,7 +63,7 @@ size_t CacheRounds::cells_of_tile() const {
 }
 
 CachePlan CachePlan::with_slices(const FrameScene& scene, uint32_t slices) {
-  const size_t lights = scene.lights.size();
+  const size_t lights = scene.sources();
   CachePlan plan;
   plan.max_cells = pelage::max_cells(scene);
   plan.slices = slices;

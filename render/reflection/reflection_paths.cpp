@@ -13,8 +13,8 @@ namespace pelage {
 /// light that shadow rays from this surface find.
 class ReflectionPaths::Recorder {
  public:
-  Recorder(const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
-      : keys_(keys), range_(range), reflected_(reflected) {}
+  Recorder(const FrameScene& scene, const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
+      : scene_(scene), keys_(keys), range_(range), reflected_(reflected) {}
 
   Arrival arrive(const PathState& path, const HitGeometry& hit_geometry) {
     if (path.vertex > 1) return Arrival::kGoOn;
@@ -24,15 +24,18 @@ class ReflectionPaths::Recorder {
   }
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
     if (path.vertex > 1 && through > 0)
-      reflected_[from.light] += path.throughput * from.value.total() * from.arriving * (through * factor);
+      reflected_[scene_.source(from.light)] +=
+          path.throughput * from.value.total() * from.arriving * (through * factor);
   }
   void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
-    if (weight * through > 0) reflected_[light] += path.throughput * radiance * (weight * through);
+    if (weight * through > 0)
+      reflected_[scene_.source(light)] += path.throughput * radiance * (weight * through);
   }
   /// Returns the cells of the second surface; empty where there is none, or no cell of the range.
   const std::optional<CellPath>& cells() const { return cells_; }
 
  private:
+  const FrameScene& scene_;
   const CellKeys& keys_;
   const CellRange& range_;
   std::vector<Rgb>& reflected_;
@@ -95,8 +98,8 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
   ray.direction = scattered->wi;
   ray.time = path.time;
   if (!point.can_hit_own_strand()) ray.start = hit.start;
-  scratch.reflected.assign(scene_.lights.size(), Rgb(0));
-  Recorder recorder(keys_, cells, scratch.reflected);
+  scratch.reflected.assign(scene_.sources(), Rgb(0));
+  Recorder recorder(scene_, keys_, cells, scratch.reflected);
   const float weight = luminance(path.weight);
   walk_.follow(ray, path, scratch.direct, scratch, recorder);
   if (!recorder.cells()) return;

@@ -31,6 +31,13 @@ struct FrameScene {
   const ImageParams& image;
   const RenderParams& render;
 
+  /// The sources of light that this render tells apart: with light layers, each light; otherwise, groups of
+  /// lights, so that time and memory do not grow with the count of lights.
+  size_t sources() const { return image.light_layers ? lights.size() : lights.groups(); }
+  size_t source(size_t light) const { return image.light_layers ? light : lights.group(light); }
+  /// The group of LightSet that contains the lights of a source.
+  size_t group(size_t source) const { return image.light_layers ? lights.group(source) : source; }
+
  private:
   FrameScene(const RenderScene& scene, const ImageParams& image_params, const RenderParams& render_params)
       : fur(scene.fur),

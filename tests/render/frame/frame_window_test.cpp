@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/frame_window.h"
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "render/frame/frame_watch.h"
 #include "tests/geom/random_strands.h"
-#include "tests/render/path/path_scene.h"
+#include "tests/render/path/skin_ball_scene.h"
 
 namespace pelage::frame_window_test {
 namespace {
@@ -124,6 +128,7 @@ TEST(FrameWindow, RegionsThatDependOnOtherPixelsAreRefused) {
 /// Records the passes, and checks that no sample is lost between two of them.
 struct Watch final : FrameWatch {
   void passed(const Film& film, const PassState& state) override {
+    if (state.coarse != std::exchange(coarse, state.coarse)) mean = 0;
     EXPECT_GE(state.mean_samples, mean);
     mean = state.mean_samples;
     grids.push_back(state.grid);
@@ -135,6 +140,7 @@ struct Watch final : FrameWatch {
   uint32_t region_version() const override { return 0; }
   std::vector<int> grids;
   double mean = 0;
+  bool coarse = false;
 };
 
 TEST(FrameWatch, SeesCoarsePicturesFirstAndChangesNoPixel) {
@@ -156,6 +162,7 @@ TEST(FrameWatch, SeesCoarsePicturesFirstAndChangesNoPixel) {
 /// Asks for a pause whenever it was paused, and while a region is refined.
 struct PausingWatch final : FrameWatch {
   void passed(const Film&, const PassState& state) override {
+    if (state.coarse != std::exchange(coarse, state.coarse)) mean = 0;
     EXPECT_GE(state.mean_samples, mean);
     mean = state.mean_samples;
   }
@@ -163,6 +170,7 @@ struct PausingWatch final : FrameWatch {
   uint32_t region_version() const override { return 1; }
   uint32_t pause_version() const override { return version; }
   void paused(const Film& film, const PassState& state) override {
+    if (state.coarse != std::exchange(coarse, state.coarse)) mean = 0;
     EXPECT_GE(state.mean_samples, mean);
     for (int y = 0; state.grid > 0 && y < film.height(); y += state.grid) {
       for (int x = 0; x < film.width(); x += state.grid) EXPECT_GT(film.samples(x, y), 0u);
@@ -171,6 +179,7 @@ struct PausingWatch final : FrameWatch {
   }
   std::atomic<uint32_t> version{1};
   double mean = 0;
+  bool coarse = false;
 };
 
 TEST(FrameWatch, APauseChangesNoPixel) {
@@ -202,8 +211,46 @@ TEST(FrameWatch, SeesThePassesOfGatherAndChangesNoPixel) {
   FrameOptions options;
   options.watch = &watch;
   const FrameResult watched = rendered(scene, options, 3);
-  EXPECT_EQ(watch.grids, (std::vector<int>{1, 1}));  // 1 and 4 samples
+  EXPECT_EQ(watch.grids, (std::vector<int>{8, 4, 2, 1, 1}));  // coarse pictures, then 1 and 4 samples
   EXPECT_EQ(watch.mean, 5);
+  expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
+}
+
+/// Records pictures and the stages of the work, in the order of their begin.
+struct RecordingProgress final : NoProgress {
+  void begin(std::string_view stage, double) override { events.emplace_back(stage); }
+  std::vector<std::string> events;
+};
+struct RecordingWatch final : FrameWatch {
+  explicit RecordingWatch(std::vector<std::string>& all) : events(all) {}
+  void passed(const Film&, const PassState& state) override {
+    events.emplace_back(state.coarse ? "coarse picture" : "picture");
+  }
+  std::optional<PixelBox> region() const override { return {}; }
+  uint32_t region_version() const override { return 0; }
+  std::vector<std::string>& events;
+};
+
+TEST(FrameWatch, SeesCoarsePicturesBeforeGatherPrepares) {
+  SkinBallScene scene;
+  scene.render.integrator = Integrator::kGather;
+  scene.render.skin_ball = SkinBallUse::kExact;
+  scene.render.bounces = 2;
+  scene.render.samples = 2;
+  NoProgress none;
+  const FrameResult alone = scene.run_frame({}, 2, none);
+  RecordingProgress progress;
+  RecordingWatch watch(progress.events);
+  FrameOptions options;
+  options.watch = &watch;
+  const FrameResult watched = scene.run_frame(options, 1, progress);
+  const auto first = [&](const std::string& event) {
+    return std::find(progress.events.begin(), progress.events.end(), event) - progress.events.begin();
+  };
+  EXPECT_EQ(std::count(progress.events.begin(), progress.events.end(), "coarse picture"), 3);
+  EXPECT_LT(first("coarse picture"), first("reflection cache"));
+  EXPECT_LT(first("reflection cache"), first("picture"));
+  EXPECT_GT(watched.statistics.stages_s.count("coarse pictures"), 0u);
   expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
 }
 
@@ -255,6 +302,7 @@ TEST(FrameWatch, RefinesARegionFirstAndChangesNoPixel) {
 /// Chooses a region after the first pass, and another one after the second.
 struct GatherRegionWatch final : FrameWatch {
   void passed(const Film& film, const PassState& state) override {
+    if (state.coarse) return;
     const PixelBox& box = boxes[version == 0 ? 0 : version - 1];
     const uint32_t inside = film.samples(box.x0, box.y0);
     const uint32_t outside = film.samples(56, 42);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -131,6 +132,29 @@ TEST(GatherWithReuse, HasTheMeanOfPathsAndLessVariance) {
     return sum;
   };
   EXPECT_LT(variance(Integrator::kGather), 0.75 * variance(Integrator::kPath)) << "both splatted";
+}
+
+// Lights of a group share what is known about their shadows; light layers keep them apart.
+TEST(GatherWithReuse, HasTheMeanOfPathsWithManyLights) {
+  for (const bool layers : {false, true}) {
+    PathScene scene(24, 24);
+    scene.camera.fov = 8;
+    scene.add_fur(furball(400, 0.8f, 0.03f), diffuse_fibre(Rgb(0.7f)));
+    SphereLightParams lamp;
+    lamp.radius = 0.1f;
+    for (int i = 0; i < 64; ++i) {
+      lamp.position = V3f(static_cast<float>(i % 8) - 3.5f, 3, static_cast<float>(i / 8) - 3.5f);
+      lamp.radiance = Rgb(i % 3 == 0 ? 60.0f : 20.0f);
+      scene.add_light("lamp" + std::to_string(i), lamp);
+    }
+    scene.add_sky(Rgb(0.1f));
+    scene.image.light_layers = layers;
+    scene.render.samples = layers ? 6 : 16;
+    scene.render.bounces = 2;
+    const Comparison result = against_paths(scene);
+    EXPECT_LT(std::abs(result.relative), 3 * result.error + 0.002) << layers;
+    EXPECT_LT(result.error, layers ? 0.008 : 0.004);
+  }
 }
 
 // The rule of the film, with its bias: what the first rays of a tile miss stays dark.

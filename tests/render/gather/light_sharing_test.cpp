@@ -86,7 +86,7 @@ float guess_in(uint32_t zone, bool guess) { return guess ? 0.15f + 0.4f * static
 /// Adds every point, and rays of about the given part of them, chosen for each gather point independently. A
 /// ray goes to one of the light points, chosen in proportion to its luminance.
 void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
-  sharing.begin(Points::kLights);
+  sharing.begin(Points::kLights, Points::kLights);
   std::vector<SystematicChoice> choices;
   for (uint64_t k = 0; k < Points::kGatherPoints; ++k) {
     choices.emplace_back(1 / part, unit_float(hash64(trial, k, random_use("choice"))));
@@ -119,7 +119,7 @@ void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
 
 TEST(LightSharing, IsExactWhenEveryLightPointHasItsRay) {
   LightSharing sharing;
-  sharing.begin(Points::kLights);
+  sharing.begin(Points::kLights, Points::kLights);
   for (uint32_t p = 0; p < Points::kCount; ++p) {
     const uint32_t gather_point = Points::gather_point(p);
     for (uint32_t light = 0; light < Points::kLights; ++light) {

@@ -66,7 +66,7 @@ TEST(LightSet, LightsThatLobesPointAtAreChosenMoreOften) {
   std::vector<float> aimed(set.size());
   for (int i = 0; i < 300; ++i) {
     const V3f from = random.direction() * random.between(0, 2);
-    const V3f aim = *set.light(size_t(i) % 9).middle(from);
+    const V3f aim = (set.light(size_t(i) % 9).ball()->center - from).normalized();
     // All of what is scattered goes into a cone of 0.2 rad about `aim`.
     const auto lobe = [&](const V3f& wi) {
       return wi.dot(aim) > std::cos(0.2f) ? 1 / (2 * kPi * (1 - std::cos(0.2f))) : 0;
