@@ -251,22 +251,57 @@ ContentStore::Removed ContentStore::remove_unused(const std::filesystem::path& f
   return {1, bytes};
 }
 
+std::vector<std::filesystem::path> ContentStore::entries() const {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
+       at.increment(error)) {
+    if (is_entry_name(at->path().filename().string())) found.push_back(at->path());
+  }
+  return found;
+}
+
 ContentStore::Removed ContentStore::prune(std::chrono::seconds age,
                                           std::span<const std::filesystem::path> keep) const {
   Removed removed;
-  std::error_code error;
-  std::vector<std::filesystem::path> found;
-  for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
-       at.increment(error)) {
-    const std::filesystem::path name = at->path().filename();
+  for (const std::filesystem::path& file : entries()) {
     const bool kept =
-        std::any_of(keep.begin(), keep.end(), [&](const auto& k) { return k.filename() == name; });
-    if (!kept && is_entry_name(name.string())) found.push_back(at->path());
-  }
-  for (const std::filesystem::path& file : found) {
+        std::any_of(keep.begin(), keep.end(), [&](const auto& k) { return k.filename() == file.filename(); });
+    if (kept) continue;
     const Removed one = remove_unused(file, age);
     removed.files += one.files;
     removed.bytes += one.bytes;
+  }
+  return removed;
+}
+
+ContentStore::Removed ContentStore::shrink(uint64_t max_bytes) const {
+  struct Entry {
+    std::chrono::seconds unused;
+    uint64_t bytes;
+    std::filesystem::path file;
+  };
+  std::vector<Entry> found;
+  uint64_t sum = 0;
+  for (std::filesystem::path& file : entries()) {
+    std::error_code error;
+    const auto unused = unused_for(file);
+    const uint64_t bytes = std::filesystem::file_size(file, error);
+    if (!unused || error) continue;
+    sum += bytes;
+    found.push_back({*unused, bytes, std::move(file)});
+  }
+  std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) {
+    return a.unused != b.unused ? a.unused > b.unused : a.file < b.file;
+  });
+  Removed removed;
+  for (const Entry& entry : found) {
+    if (sum <= max_bytes) break;
+    sum -= entry.bytes;
+    std::error_code failed;
+    if (!std::filesystem::remove(entry.file, failed)) continue;
+    ++removed.files;
+    removed.bytes += entry.bytes;
   }
   return removed;
 }

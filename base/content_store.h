@@ -151,11 +151,15 @@ class ContentStore {
   /// file name occurs in `keep`. Safe while other processes use the folder: open files stay readable, and an
   /// entry that is needed after its removal is computed again.
   Removed prune(std::chrono::seconds age, std::span<const std::filesystem::path> keep = {}) const;
+  /// Removes the entries that have not been written or opened for longest, until all entries together take at
+  /// most `max_bytes`. The time of use is that of open(), to the hour.
+  Removed shrink(uint64_t max_bytes) const;
   /// Removes one file if it has the name of an entry and was not written or opened for longer than `age`.
   static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:
   bool trusts(uid_t owner) const;
+  std::vector<std::filesystem::path> entries() const;
   template <class File>
   std::optional<File> open_as(const std::string& kind, const ContentHash& key, const WarningSink& warn) const;
 

@@ -65,6 +65,22 @@ void add_run_flags(CLI::App& command, RunOptions& options, RunTexts& texts, cons
   add_parallel_flags(command, options, texts, memory_help);
 }
 
+void add_cache_flags(CLI::App& command, RunTexts& texts) {
+  CLI::Option* none =
+      command.add_flag("--no-cache", texts.no_cache, "Neither read nor write the user's cache of growth");
+  command
+      .add_option("--cache-size", texts.cache_size,
+                  "Max size of the user's cache of growth, such as 500M (default: 2G)")
+      ->type_name("BYTES")
+      ->excludes(none);
+}
+
+std::shared_ptr<const GrowthCache> growth_cache(const RunOptions& options) {
+  const std::filesystem::path folder =
+      options.cache ? GrowthCache::folder_of_user() : std::filesystem::path();
+  return folder.empty() ? nullptr : std::make_shared<const GrowthCache>(folder, options.cache_bytes);
+}
+
 void interpret_run(const RunTexts& texts, RunOptions& options) {
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
@@ -77,6 +93,12 @@ void interpret_run(const RunTexts& texts, RunOptions& options) {
     options.overrides.push_back({"frames", "'" + texts.frames + "'"});
   }
   if (!texts.stats.empty()) options.stats = texts.stats;
+  if (!texts.cache_size.empty()) {
+    const std::optional<uint64_t> bytes = parse_bytes(texts.cache_size);
+    if (!bytes)
+      fail_arguments("--cache-size: expected bytes such as 500M or 2G, got " + quote(texts.cache_size));
+    options.cache_bytes = *bytes;
+  }
   options.progress = parse_progress(texts);
 }
 

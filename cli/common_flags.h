@@ -15,9 +15,10 @@ namespace pelage {
 /// Values of flags that the parser leaves as text until interpret_run() validates them, so that all messages
 /// are our own.
 struct RunTexts {
-  std::string frames, memory, progress, stats;
+  std::string frames, memory, progress, stats, cache_size;
   std::vector<std::string> set;
   bool quiet = false;
+  bool no_cache = false;
 };
 
 inline constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";
@@ -32,6 +33,9 @@ void add_parallel_flags(CLI::App& command, RunOptions& options, RunTexts& texts,
 /// Adds --stats, --sample-memory and the flags of add_parallel_flags().
 void add_run_flags(CLI::App& command, RunOptions& options, RunTexts& texts,
                    const char* memory_help = kMemoryHelp);
+
+/// Adds --no-cache and --cache-size.
+void add_cache_flags(CLI::App& command, RunTexts& texts);
 
 /// Reads the texts, and adds the overrides of the flags that set scene values. Throws Error (kArguments).
 void interpret_run(const RunTexts& texts, RunOptions& options);

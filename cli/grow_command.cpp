@@ -139,8 +139,8 @@ void report_cache(const std::string& name, const GroomCacheReport& cache, bool e
   std::cout << fmt::format("  {}\n", cache.file.string());
 }
 
-// Keeps only the current files of the scene's grooms in each cache folder.
-void prune_caches(const Assets& assets) {
+// Keeps only the current files of the scene's grooms in each cache folder, and no files in the user's cache.
+void prune_caches(const Assets& assets, const GrowthCache* growth_cache) {
   std::map<std::filesystem::path, std::vector<std::filesystem::path>> folders;
   for (const auto& [name, groom] : assets.grooms) {
     if (!groom->cache_report()) continue;
@@ -148,12 +148,14 @@ void prune_caches(const Assets& assets) {
     std::vector<std::filesystem::path>& keep = folders[groom->store()->folder()];
     keep.insert(keep.end(), files.begin(), files.end());
   }
-  for (const auto& [folder, keep] : folders) {
-    const ContentStore::Removed removed = ContentStore(folder).prune(std::chrono::hours(1), keep);
+  const auto tell = [](const std::filesystem::path& folder, const ContentStore::Removed& removed) {
     std::cout << fmt::format("{}: {} removed, {:.1f} MiB\n", folder.string(),
                              counted(static_cast<int64_t>(removed.files), "file"),
                              static_cast<double>(removed.bytes) / (1 << 20));
-  }
+  };
+  for (const auto& [folder, keep] : folders)
+    tell(folder, ContentStore(folder).prune(std::chrono::hours(1), keep));
+  if (growth_cache) tell(growth_cache->folder(), growth_cache->clear());
 }
 
 /// For messages: the coats of which no strand has an attribute that strands of another coat have. `coats`:
@@ -248,7 +250,7 @@ int run_grow(const Options& options) {
     all_cached &= groom->cache_report() != nullptr;
     if (groom->cache_report()) report_cache(name, *groom->cache_report(), options.explain);
   }
-  if (options.prune) prune_caches(*assets);
+  if (options.prune) prune_caches(*assets, scene.growth_cache.get());
   if (options.output.empty() && options.groom.empty() && !grow_boxes(scene, *assets, run)) {
     return SignalGuard::exit_code();
   }

@@ -57,6 +57,7 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
   render->add_flag("--json", options.json, "Print the estimate as JSON")->needs(estimate);
   add_checkpoint_flags(*render, options.checkpoint, texts.checkpoint_every);
   add_run_flags(*render, options, texts);
+  add_cache_flags(*render, texts);
 }
 
 void add_view(CLI::App& app, Options& options, Texts& texts) {
@@ -73,6 +74,7 @@ void add_view(CLI::App& app, Options& options, Texts& texts) {
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
   view->add_option("--memory", texts.memory, kMemoryHelp)->type_name("BYTES");
+  add_cache_flags(*view, texts);
 }
 
 void add_why(CLI::App& app, Options& options, Texts& texts) {
@@ -91,6 +93,7 @@ void add_why(CLI::App& app, Options& options, Texts& texts) {
   why->add_option("--frames", texts.frames, "Frame of the pixel (default: the scene's first)")
       ->type_name("FRAME");
   add_parallel_flags(*why, options, texts, kMemoryHelp);
+  add_cache_flags(*why, texts);
 }
 
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
@@ -108,11 +111,13 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   grow->add_flag("--explain", options.explain,
                  "For each operator in a cache, say whether it was stale and why");
   grow->add_flag("--prune", options.prune,
-                 "Delete cache files that no groom of the scene needs and that no run has used for an hour");
+                 "Delete cache files that no groom of the scene needs and that no run has used for an hour, "
+                 "and all files of the user's cache of growth");
   grow->add_option("--frames", texts.frames,
                    "Frames to compute bounding boxes for; strands grow at the first frame")
       ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
+  add_cache_flags(*grow, texts);
 }
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
@@ -249,6 +254,9 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
   if (!parse_command_line(*app, arguments, out)) return {};
   options.command = command_names().at(arguments[0]);
   interpret(texts, options);
+  constexpr Command kWithCache[] = {Command::kRender, Command::kView, Command::kWhy, Command::kGrow};
+  options.cache = !texts.no_cache && std::find(std::begin(kWithCache), std::end(kWithCache),
+                                               options.command) != std::end(kWithCache);
   return options;
 }
 

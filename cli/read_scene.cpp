@@ -11,6 +11,7 @@ SceneDescription read_scene(const RunOptions& options, Progress& progress, const
   SceneDescription scene = load_scene(options.input, options.overrides, use);
   for (const Problem& warning : scene.warnings)
     progress.warn(to_string(warning.position) + ": " + warning.message);
+  scene.growth_cache = growth_cache(options);
   return scene;
 }
 

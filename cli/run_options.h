@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/rib_flags.h"
+#include "groom/cache/growth_cache.h"
 #include "scene/document.h"
 
 namespace pelage {
@@ -34,7 +37,13 @@ struct RunOptions {
   std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between samples
   int threads = 0;                        ///< --threads; 0: as many as are available to the process
   ProgressStyle progress = ProgressStyle::kAuto;
-  RibUseOptions rib_in;  ///< flags for RIB files that the scene reads
+  bool cache = false;  ///< whether to use the user's cache of growth: true for commands that have --no-cache,
+                       ///< without it
+  uint64_t cache_bytes = GrowthCache::kMaxBytes;  ///< --cache-size
+  RibUseOptions rib_in;                           ///< flags for RIB files that the scene reads
 };
+
+/// Returns the cache that the flags and the environment choose; null if there is none.
+std::shared_ptr<const GrowthCache> growth_cache(const RunOptions& options);
 
 }  // namespace pelage

@@ -16,6 +16,7 @@ int run_view(const Options& options) {
   view.scene = options.input;
   view.overrides = options.overrides;
   view.threads = options.threads;
+  view.growth_cache = growth_cache(options);
   view.port = options.port;
   if (!options.bind.empty()) view.address = options.bind;
   if (view.address != "127.0.0.1") {

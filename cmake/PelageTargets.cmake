@@ -58,7 +58,8 @@ function(pelage_page source folder header function)
 endfunction()
 
 # One test program. Each of its suites becomes a test of CTest's own, listed when CTest starts. With a sanitizer, where
-# every start of a program costs more than most suites, CTest runs it in a few shards instead.
+# every start of a program costs more than most suites, CTest runs it in a few shards instead. No test uses the cache of
+# the user (PELAGE_CACHE).
 function(pelage_test_program target module label)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
@@ -88,7 +89,7 @@ include("@PROJECT_SOURCE_DIR@/cmake/TestSuites.cmake")
   foreach(shard RANGE ${last})
     add_test(NAME ${module}.${shard} COMMAND ${target} --gtest_brief=1)
     set_tests_properties(${module}.${shard} PROPERTIES LABELS "${module};${label}" TIMEOUT 1800
-                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+                         ENVIRONMENT "PELAGE_CACHE=off;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/job.h"
 #include "geom/triangle_distance.h"
@@ -193,6 +194,9 @@ struct ClosestPointTree::Impl {
     }
   }
 
+  /// Sets the place of the nearest point within `limit`, and its triangle.
+  std::optional<NearestOnTriangle> nearest(const V3f& point, float limit, ClosestPoint& result) const;
+
   V3d face_normal(uint32_t triangle) const { return triangle_at(triangle).normal(); }
 
   /// The normal that gives the side of the surface for every point nearest to this feature [Baerentzen05].
@@ -230,18 +234,30 @@ ClosestPointTree::ClosestPointTree(const SkinMesh& mesh, int key, const Job* job
 ClosestPointTree::~ClosestPointTree() = default;
 ClosestPointTree::ClosestPointTree(ClosestPointTree&&) noexcept = default;
 
+std::optional<NearestOnTriangle> ClosestPointTree::Impl::nearest(const V3f& point, float limit,
+                                                                 ClosestPoint& result) const {
+  if (root == kNone || !(limit >= 0)) return {};
+  const uint32_t triangle = find(point, limit * limit);
+  if (triangle == kNone) return {};
+  const NearestOnTriangle on_triangle = nearest_on_triangle(triangle_at(triangle), V3d(point));
+  result.position = V3f(on_triangle.position);
+  result.distance = static_cast<float>((V3d(point) - on_triangle.position).length());
+  result.triangle = triangle;
+  return on_triangle;
+}
+
+bool ClosestPointTree::closest_position(const V3f& point, float limit, ClosestPoint& result) const {
+  return impl_->nearest(point, limit, result).has_value();
+}
+
 bool ClosestPointTree::closest(const V3f& point, float limit, ClosestPoint& result) const {
   const Impl& tree = *impl_;
-  if (tree.root == kNone || !(limit >= 0)) return false;
-  const uint32_t triangle = tree.find(point, limit * limit);
-  if (triangle == kNone) return false;
-
-  const NearestOnTriangle nearest = nearest_on_triangle(tree.triangle_at(triangle), V3d(point));
+  const std::optional<NearestOnTriangle> found = tree.nearest(point, limit, result);
+  if (!found) return false;
+  const NearestOnTriangle& nearest = *found;
+  const uint32_t triangle = result.triangle;
   const V3d away = V3d(point) - nearest.position;
-  result.position = V3f(nearest.position);
-  result.distance = static_cast<float>(away.length());
   result.inside = away.dot(tree.pseudonormal(triangle, nearest)) < 0;
-  result.triangle = triangle;
   V3d normal(0);
   for (uint32_t i = 0; i < 3; ++i) {
     normal += V3d(tree.mesh.normal(tree.mesh.triangles[triangle * 3 + i], tree.key)) *

@@ -35,6 +35,8 @@ class ClosestPointTree {
   /// unchanged, when there is no such point. Of several nearest triangles, takes the one with the lowest
   /// index.
   bool closest(const V3f& point, float limit, ClosestPoint& result) const;
+  /// Does the same, but does not set `normal` and `inside`, which take a good part of the time.
+  bool closest_position(const V3f& point, float limit, ClosestPoint& result) const;
   /// Memory of the tree, without the mesh.
   size_t bytes() const;
 

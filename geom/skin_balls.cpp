@@ -141,11 +141,13 @@ std::vector<std::pair<uint64_t, SkinBalls::Sample>> SkinBalls::Builder::samples(
 SkinBall SkinBalls::Builder::shrink(const V3f& from, const V3f& normal, int key) const {
   SkinBall best;
   float hidden = 0, radius = start_radius;
-  for (int i = 0; i < kMaxShrinks; ++i) {
+  // No smaller ball hides more than one that touches the skin at `from` alone.
+  const auto may_hide_more = [&] { return radius > hidden * (radius + kHeight * cell_size); };
+  for (int i = 0; i < kMaxShrinks && may_hide_more(); ++i) {
     const V3f center = from - radius * normal;
     ClosestPoint nearest;
     nearest.distance = radius;
-    const bool found = trees[static_cast<size_t>(key)].closest(center, radius, nearest);
+    const bool found = trees[static_cast<size_t>(key)].closest_position(center, radius, nearest);
     const float sine = nearest.distance / (radius + kHeight * cell_size);
     if (sine > hidden && windings[static_cast<size_t>(key)].at(center) != 0) {
       hidden = sine;

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "groom/cache/growth_cache.h"
 #include "groom/groom_impl.h"
 #include "groom/operators/width.h"
 
@@ -98,7 +99,8 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
                                            std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
-                                           const Job& job, const Groom* previous) {
+                                           const Job& job, const Groom* previous,
+                                           const GrowthCache* growth_cache) {
   check_combination(name, params, rest != nullptr);
   const std::string owner = "groom '" + name + "'";
   auto impl = std::make_unique<Impl>();
@@ -142,7 +144,12 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
     if (same && params.strands_file.empty()) {
       impl->source.grown = previous->impl_->source.grown;
     } else if (params.strands_file.empty()) {
-      impl->source.grown = std::make_shared<const FollicleTree>(impl->place_follicles(params, context, seed));
+      const auto place = [&] { return impl->place_follicles(params, context, seed); };
+      const WarningSink warn = [&job](const std::string& line) { job.progress.warn(line); };
+      impl->source.grown = std::make_shared<const FollicleTree>(
+          growth_cache
+              ? growth_cache->follicles(impl->follicle_identity, impl->source.rest->topology(), place, warn)
+              : place());
     }
   }
   const size_t bytes = impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);

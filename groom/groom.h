@@ -18,6 +18,7 @@
 
 namespace pelage {
 
+class GrowthCache;
 class TextureLibrary;
 struct GroomCacheReport;
 struct Job;
@@ -72,11 +73,13 @@ class Groom {
   /// kStopped when the job is stopped. A problem with the cache does not stop growing; it is reported as a
   /// warning to the job's progress.
   ///
-  /// `previous`, if not null: a groom whose follicles are shared if they are the same. Not used with a cache.
+  /// `previous`, if not null: a groom whose follicles are shared if they are the same. `growth_cache`, if not
+  /// null: where follicles are kept between runs. Neither is used with a cache in `params`.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
                                              TextureLibrary& textures, const Job& job,
-                                             const Groom* previous = nullptr);
+                                             const Groom* previous = nullptr,
+                                             const GrowthCache* growth_cache = nullptr);
   ~Groom();
 
   const FollicleTree& follicles() const;

@@ -142,7 +142,7 @@ void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Jo
   estimate.measuring_cpu_s = fur.cpu_s * static_cast<double>(unknown) / std::max(1.0, double(segments));
 }
 
-void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& job,
+void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& job, bool measures,
                 FrameEstimate& estimate) {
   // The size of a chunk does not depend on its box. In a crowd, finding the real boxes takes longer than
   // everything else here.
@@ -168,7 +168,7 @@ void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& 
   const double growing = job.workers.thread_count() * std::max(fur.peak_bytes, skins.peak_bytes);
   estimate.chunk_bytes = static_cast<int64_t>(fur.bytes + skins.bytes + growing);
   estimate.growing_cpu_s = fur.cpu_s + skins.cpu_s;
-  add_measuring(scene, chunks, job, fur, estimate);
+  if (measures) add_measuring(scene, chunks, job, fur, estimate);
 }
 
 double sample_count(const RenderScene& scene, const PixelBox& pixels) {
@@ -220,15 +220,17 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   if (scene.render.integrator == Integrator::kGather) tiles = GatherTracer::reserve(scene, job);
   estimate.buffer_bytes = job.ledger.budgeted() - before;
 
-  const FrameChunks chunks(scene, job);
+  FrameChunks chunks(scene, job);
   trim_heap();
   estimate.scene_bytes = current_rss_bytes();
   estimate.preparing_bytes = peak_rss_bytes();
   const int64_t taken = job.ledger.budgeted();
   estimate.shadows = estimate_shadows(scene, job);
-  add_chunks(scene, chunks, job, estimate);
-  estimate.chunk_bytes = static_cast<int64_t>(reached_fraction(scene, window.traced, estimate.chunks) *
-                                              static_cast<double>(estimate.chunk_bytes));
+  const bool at_once = scene.render.bvh.file.empty() && chunks.grow_at_once(job);
+  add_chunks(scene, chunks, job, !at_once, estimate);
+  if (!at_once)
+    estimate.chunk_bytes = static_cast<int64_t>(reached_fraction(scene, window.traced, estimate.chunks) *
+                                                static_cast<double>(estimate.chunk_bytes));
   if (const int64_t limit = job.ledger.limit(); limit > 0) {
     const int64_t room =
         std::max<int64_t>(0, limit - taken - estimate.box_bytes - estimate.shadows.held_bytes);

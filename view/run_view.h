@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,15 @@
 
 namespace pelage {
 
+class GrowthCache;
+
 struct ViewOptions {
   std::filesystem::path scene;
   std::vector<Override> overrides;
-  std::string address = "127.0.0.1";  ///< the address that the server is bound to
-  int port = 0;                       ///< 0: any free port
-  int threads = 0;                    ///< of the render; 0: all available
+  std::string address = "127.0.0.1";                ///< the address that the server is bound to
+  int port = 0;                                     ///< 0: any free port
+  int threads = 0;                                  ///< of the render; 0: all available
+  std::shared_ptr<const GrowthCache> growth_cache;  ///< SceneDescription::growth_cache
 };
 
 /// Shows a live picture of a scene to browsers, until `stopped` returns true. `stopped` is called 50 times a

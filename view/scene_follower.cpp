@@ -35,8 +35,13 @@ ViewCamera camera_of(const SceneDescription& scene, bool moved) {
 }  // namespace
 
 SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> overrides,
-                             LiveRenderer& renderer, ViewState& state)
-    : path_(std::move(scene)), overrides_(std::move(overrides)), renderer_(renderer), state_(state) {
+                             LiveRenderer& renderer, ViewState& state,
+                             std::shared_ptr<const GrowthCache> growth_cache)
+    : path_(std::move(scene)),
+      overrides_(std::move(overrides)),
+      growth_cache_(std::move(growth_cache)),
+      renderer_(renderer),
+      state_(state) {
   files_ = {path_};
   last_ = read();
   files_ = followed_files(last_->scene);
@@ -94,6 +99,7 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   // again.
   const FileStamps before = stamps_of(files_);
   SceneDescription scene = load_shown();
+  scene.growth_cache = growth_cache_;
   FileStamps stamps = stamps_of(followed_files(scene));
   state_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
   for (auto& [file, stamp] : stamps) {

@@ -20,9 +20,10 @@ namespace pelage {
 /// frame, the edits have this frame alone, until the scene has it no more.
 class SceneFollower {
  public:
-  /// Reads the scene and submits it. Throws the errors of load_scene().
+  /// Reads the scene and submits it. `growth_cache`: SceneDescription::growth_cache of all edits. Throws the
+  /// errors of load_scene().
   SceneFollower(std::filesystem::path scene, std::vector<Override> overrides, LiveRenderer& renderer,
-                ViewState& state);
+                ViewState& state, std::shared_ptr<const GrowthCache> growth_cache = {});
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -37,6 +38,7 @@ class SceneFollower {
 
   const std::filesystem::path path_;
   const std::vector<Override> overrides_;
+  const std::shared_ptr<const GrowthCache> growth_cache_;
   LiveRenderer& renderer_;
   ViewState& state_;
   FileWatch watch_;

@@ -178,9 +178,10 @@ bool only_holes(const SurfaceTopology& topology) {
 std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,
-                                        TextureLibrary& textures, const Job& job, const Groom* previous) {
+                                        TextureLibrary& textures, const Job& job, const Groom* previous,
+                                        const GrowthCache* growth_cache) {
   try {
-    auto groom = Groom::create(name, params, rest, textures, job, previous);
+    auto groom = Groom::create(name, params, rest, textures, job, previous, growth_cache);
     if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
       job.progress.warn(fmt::format("{}: groom '{}' grows nothing, because all faces of skin '{}' are holes",
                                     to_string(position), name, params.skin.name));
@@ -261,7 +262,8 @@ void update_grooms(const SceneDescription& scene, const std::map<std::string, Co
     const auto skin = assets.skins.find(params.skin.name);
     const auto rest = skin == assets.skins.end() ? nullptr : skin->second.rest;
     std::shared_ptr<const Groom>& groom = assets.grooms[name];
-    groom = make_groom(name, position, params, rest, assets.textures, job, groom.get());
+    groom =
+        make_groom(name, position, params, rest, assets.textures, job, groom.get(), scene.growth_cache.get());
     assets.groom_keys[name] = keys.at("grooms." + name);
   }
 }

@@ -24,6 +24,8 @@
 
 namespace pelage {
 
+class GrowthCache;
+
 // The contents of a scene file as one struct. docs/MANUAL.md describes the keys. Structs of blocks that
 // belong to another folder, such as render/, are declared there.
 
@@ -124,6 +126,8 @@ struct SceneDescription {
   SceneParts parts;                       ///< hashes of the parts of the document, to compare scenes
   /// One per use of an old name of a key, with the current name, and per setting without effect.
   std::vector<Problem> warnings;
+  /// Where coats keep follicles between runs; null: nowhere. Set by the program, not by the document.
+  std::shared_ptr<const GrowthCache> growth_cache;
   static const Schema<SceneDescription>& schema();
 };
 

@@ -151,7 +151,8 @@ float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& ad
 
 SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job) {
   SurfaceMeasure result;
-  for (const FaceStatistics& face : measure_faces(rest, density, job)) {
+  result.faces = measure_faces(rest, density, job);
+  for (const FaceStatistics& face : result.faces) {
     result.area += face.area;
     result.mass += face.mass;
   }
@@ -159,22 +160,25 @@ SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& 
 }
 
 FollicleCandidates::FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density,
-                                       uint64_t seed, size_t wanted, const Job& job)
+                                       uint64_t seed, size_t wanted, SurfaceMeasure measure)
     : rest_(rest),
       density_(density),
       seed_(seed),
-      wanted_(wanted),
       room_(density.is_uniform() ? 1.0f : 1.25f),
-      faces_(measure_faces(rest, density, job)),
-      first_(faces_.size() + 1, 0) {
-  double mass = 0;
-  for (const FaceStatistics& face : faces_) mass += face.mass;
-  if (!(mass > 0)) return;
+      measure_(std::move(measure)),
+      first_(measure_.faces.size() + 1, 0) {
+  want(wanted);
+}
+
+void FollicleCandidates::want(size_t wanted) {
+  wanted_ = wanted;
+  if (!(measure_.mass > 0)) return;
   // The number of attempts per face is its area times a bound of its density.
   double cumulative = 0;
-  for (size_t f = 0; f < faces_.size(); ++f) {
-    const double limit = faces_[f].largest_density * room_;
-    cumulative += static_cast<double>(wanted) * faces_[f].area * limit / mass;
+  for (size_t f = 0; f < measure_.faces.size(); ++f) {
+    const FaceStatistics& face = measure_.faces[f];
+    const double limit = face.largest_density * room_;
+    cumulative += static_cast<double>(wanted) * face.area * limit / measure_.mass;
     if (!(cumulative < 0x1p32)) {
       throw Error(ErrorKind::kInput,
                   "the density is too uneven: more than 4 billion candidate positions would be needed; use "
@@ -198,7 +202,8 @@ uint64_t FollicleCandidates::order_key(uint64_t attempt) const {
 
 RootAddress FollicleCandidates::root(uint32_t attempt, V3f* position) const {
   const size_t face = face_of(attempt);
-  const Place place = place_on_face(rest_, static_cast<uint32_t>(face), faces_[face], stream(face, attempt));
+  const Place place =
+      place_on_face(rest_, static_cast<uint32_t>(face), measure_.faces[face], stream(face, attempt));
   *position = place.point.position;
   return place.root;
 }
@@ -213,7 +218,8 @@ void FollicleCandidates::try_all(uint64_t begin, uint64_t end, const CandidateSh
     const uint64_t number = mix64(stream) >> 32;
     if (number < share.begin || number >= share.end) continue;
     FollicleCandidate candidate;
-    if (!try_candidate(rest_, density_, static_cast<uint32_t>(f), faces_[f], room_, stream, candidate))
+    if (!try_candidate(rest_, density_, static_cast<uint32_t>(f), measure_.faces[f], room_, stream,
+                       candidate))
       continue;
     candidate.attempt = static_cast<uint32_t>(i);
     candidate.number = static_cast<uint32_t>(number);

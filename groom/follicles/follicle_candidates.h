@@ -54,16 +54,6 @@ struct CandidateSurvey {
   }
 };
 
-/// Area of a surface, and integral of the density over that area.
-struct SurfaceMeasure {
-  double area = 0;
-  double mass = 0;
-};
-
-/// Integrates over a surface: the area with 4 x 4 Gauss points per ptex face, the density with a grid of
-/// samples per ptex face.
-SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job);
-
 /// Data of a ptex face for making candidates: integrals, and max values over samples for rejection sampling.
 struct FaceStatistics {
   double area = 0;
@@ -72,6 +62,17 @@ struct FaceStatistics {
   float largest_density = 0;  ///< max over the samples of the density
 };
 
+/// Area of a surface, and integral of the density over that area.
+struct SurfaceMeasure {
+  double area = 0;
+  double mass = 0;
+  std::vector<FaceStatistics> faces;  ///< by ptex face
+};
+
+/// Integrates over a surface: the area with 4 x 4 Gauss points per ptex face, the density with a grid of
+/// samples per ptex face.
+SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job);
+
 /// Makes candidates by rejection sampling: independent points whose probability is proportional to density
 /// times area. Each candidate is a pure function of the seed, its face and its attempt number. The density is
 /// first sampled on a grid per ptex face, so that few candidates are rejected where the density is low.
@@ -79,10 +80,13 @@ struct FaceStatistics {
 /// and the density must outlive this object.
 class FollicleCandidates {
  public:
-  /// `wanted`: expected number of candidates. Throws Error (kInput) if the density is so uneven that too many
-  /// attempts would be needed.
+  /// `measure`: measure_surface() of the same surface and density. `wanted`: expected number of candidates.
+  /// Throws the errors of want().
   FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t wanted,
-                     const Job& job);
+                     SurfaceMeasure measure);
+  /// Sets the expected number of candidates. Throws Error (kInput) if the density is so uneven that too many
+  /// attempts would be needed.
+  void want(size_t wanted);
 
   /// Makes the candidates of a share, in order of their random numbers. All shares together have about
   /// `wanted` candidates; the exact number depends on the seed.
@@ -109,10 +113,10 @@ class FollicleCandidates {
   const LimitSurface& rest_;
   const FollicleDensity& density_;
   const uint64_t seed_;
-  const size_t wanted_;
+  size_t wanted_ = 0;
   // margin: factor on the largest sampled density, because values between samples may be larger
   const float room_;
-  std::vector<FaceStatistics> faces_;
+  const SurfaceMeasure measure_;
   std::vector<uint64_t> first_;  // first attempt of each face, then the total number of attempts
 };
 

@@ -113,15 +113,17 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, co
 
 /// Positions of follicles in their progressive order. Returns the charge for them and for making the tree.
 MemoryCharge place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
-                   size_t count, double mass, const Job& job, std::vector<V3f>& positions,
+                   size_t count, SurfaceMeasure measure, const Job& job, std::vector<V3f>& positions,
                    std::vector<RootAddress>& roots) {
+  const double mass = measure.mass;
+  FollicleCandidates source(rest, density, options.seed, candidates_for(count), std::move(measure));
   // The number of candidates is random: in the rare case of too few, repeats with more.
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     const HeldCandidates held = held_in(job.ledger, wanted, count);
     MemoryCharge making = reserve(job.ledger, MemoryTag::kGrooms, placing_bytes(wanted, count, held),
                                   fmt::format("placing {} {} of {}{}", count, options.noun,
                                               round == 0 ? "" : "uneven density for ", options.owner));
-    const FollicleCandidates source(rest, density, options.seed, wanted, job);
+    source.want(wanted);
     const auto order = choose(source, held, count, mass, round == 7, options, job);
     if (!order) continue;
     positions.resize(order->size());
@@ -180,7 +182,7 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
                    fmt::format("placing {} {} of {}", options.count, options.noun, options.owner));
   }
   const FollicleDensity density{options.density, options.coverage};
-  const SurfaceMeasure measure = measure_surface(rest, density, job);
+  SurfaceMeasure measure = measure_surface(rest, density, job);
   const double asked =
       options.count > 0 ? static_cast<double>(options.count) : std::round(options.per_area * measure.mass);
   if (!(asked <= static_cast<double>(kMaxFollicles))) {
@@ -194,7 +196,8 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const Job placing{job.workers, job.ledger, stage};
   std::vector<V3f> positions;
   std::vector<RootAddress> roots;
-  const MemoryCharge making = place(rest, density, options, count, measure.mass, placing, positions, roots);
+  const MemoryCharge making =
+      place(rest, density, options, count, std::move(measure), placing, positions, roots);
   std::vector<uint32_t> ids(roots.size());
   std::iota(ids.begin(), ids.end(), 0u);
   std::vector<uint32_t> places;

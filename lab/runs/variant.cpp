@@ -146,6 +146,8 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   run.command = {setup_.program.string(), variant.command, setup_.scene};
   if (variant.command == "render") run.command.insert(run.command.end(), {"-o", picture(variant).string()});
   run.command.insert(run.command.end(), {"--stats", statistics.string(), "--quiet"});
+  // Every run does the same work, whatever earlier runs left in the user's cache.
+  if (variant.command == "render" || variant.command == "grow") run.command.push_back("--no-cache");
   for (const auto* list : {&setup_.arguments, &variant.arguments})
     run.command.insert(run.command.end(), list->begin(), list->end());
   run.load = load_average();

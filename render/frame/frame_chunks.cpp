@@ -239,17 +239,36 @@ FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   return plan;
 }
 
-bool FrameChunks::bound_quickly(const Job& job) {
+bool FrameChunks::measures_boxes_of_fur_trees() const {
   if (!in_fur_trees() || !measures_strands(bounds_) || bound_keys(bounds_) != 1) return false;
-  const int64_t limit = job.ledger.limit();
-  int64_t bytes = job.ledger.budgeted();
-  for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-    if (leaves_[leaf]->bounds_record()) return false;
-    if (limit == 0) continue;
-    bytes += static_cast<int64_t>(FurChunk::bytes_bound(counts(leaf), FurChunkOptions()));
-    if (bytes > limit) return false;
+  return std::none_of(leaves_.begin(), leaves_.end(),
+                      [](const Procedural* leaf) { return leaf->bounds_record().has_value(); });
+}
+
+int64_t FrameChunks::bytes_bound(size_t chunks) const {
+  int64_t sum = 0;
+  for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
+    const ChunkCounts n = counts(chunk);
+    sum +=
+        static_cast<int64_t>(!is_skin(chunk) && in_fur_trees() ? FurChunk::bytes_bound(n, FurChunkOptions())
+                                                               : EmbreeChunk::bytes_bound(n));
   }
+  return sum;
+}
+
+bool FrameChunks::bound_quickly(const Job& job) {
+  if (!measures_boxes_of_fur_trees()) return false;
+  if (!has_room(job.ledger, bytes_bound(leaves_.size()))) return false;
   bounds_ = BoundingStrategy::kConservative;
+  return true;
+}
+
+bool FrameChunks::grow_at_once(const Job& job) {
+  if (bounds_ != BoundingStrategy::kExact || job.ledger.limit() == 0 || !measures_boxes_of_fur_trees())
+    return false;
+  // As much memory again stays free for what is made after the chunks.
+  if (!has_room(job.ledger, 2 * bytes_bound(size()))) return false;
+  bounds_ = BoundingStrategy::kNone;
   return true;
 }
 

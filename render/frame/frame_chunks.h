@@ -55,6 +55,11 @@ class FrameChunks final : public ChunkGrower {
   /// if that is faster: if the strategy of the scene measures constant boxes, all chunks fit `render.memory`
   /// together, and no boxes are stored beside caches. Returns whether this is so.
   bool bound_quickly(const Job& job);
+  /// From now on, bounds() computes no boxes, because the caller grows all chunks before the first ray and
+  /// measures their boxes then. This grows each leaf once instead of twice. Does so if the strategy of the
+  /// scene is `exact`, if all chunks take at most half of the free part of `render.memory`, and if no boxes
+  /// are stored beside caches. Returns whether this is so.
+  bool grow_at_once(const Job& job);
   /// Returns a hash of everything on which the grown leaf and its boxes depend, except for its numbers
   /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
   /// Empty when unknown.
@@ -83,6 +88,10 @@ class FrameChunks final : public ChunkGrower {
     size_t block = 0;     // max temporary bytes of growing one leaf, without its strands
   };
   MeasurePlan measure_plan(const Job& job) const;
+  /// Returns whether bounds() would grow leaves for constant boxes that are not stored.
+  bool measures_boxes_of_fur_trees() const;
+  /// Returns the max memory of the first `chunks` chunks together, in bytes.
+  int64_t bytes_bound(size_t chunks) const;
   /// Returns the boxes of the given leaves.
   std::vector<ChunkBounds> leaf_bounds(const std::vector<const Procedural*>& leaves, const Job& job,
                                        BoundingCounts& counts) const;

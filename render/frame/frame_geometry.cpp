@@ -57,6 +57,7 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
   const Stopwatch preparing;
   auto chunks = std::make_unique<FrameChunks>(scene, job);
   const bool is_quick = kept && chunks->bound_quickly(job);
+  const bool at_once = !kept && scene.render.bvh.file.empty() && chunks->grow_at_once(job);
   KnownLeaves known;
   if (kept) known = known_leaves(*chunks, *kept);
   const Stopwatch bounding;
@@ -75,7 +76,7 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
   options.chunk.screen_door = options.fur.screen_door = scene.render.screen_door;
   if (const float width = scene.render.min_width(); width > 0)
     options.fur.min_width = MinWidth{scene.camera.lod_view(), width};
-  options.eager = scene.render.bounds == BoundingStrategy::kNone;
+  options.eager = at_once || scene.render.bounds == BoundingStrategy::kNone;
   options.memory_limit = scene.render.memory.bytes;
   options.threads = job.workers.thread_count();
   options.opaque = chunks->opaque();
@@ -104,6 +105,7 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
   const double grow_s = options.eager ? growing.seconds() : 0;
   if (options.eager) statistics.stages_s["grow"] += grow_s;
   statistics.stages_s["prepare"] += preparing.seconds() - bound_s - store_s - grow_s;
+  if (at_once && !job.progress.cancelled()) statistics.growth.area += geometry->chunks_area();
   if (!job.progress.cancelled()) return geometry;
   geometry->add_to(statistics);
   if (kept) geometry->release(*kept, job.ledger);
@@ -111,6 +113,13 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kStopped) throw;
   return nullptr;
+}
+
+BoundsArea FrameGeometry::chunks_area() const {
+  BoundsArea area;
+  for (uint32_t leaf = 0; leaf < chunks_->leaves().size(); ++leaf)
+    area += area_of({1, {chunks().boxes().whole(leaf)}, {}});
+  return area;
 }
 
 void FrameGeometry::release(KeptFur& kept, MemoryLedger& ledger) {

@@ -14,7 +14,8 @@
 namespace pelage {
 
 /// The geometry of a frame: chunks, the boxes around them, and the accelerator. A chunk is grown when a ray
-/// needs it. With `render.bounds: none`, all chunks are grown up front instead.
+/// needs it. With `render.bounds: none`, or if FrameChunks::grow_at_once(), all chunks are grown up front
+/// instead.
 class FrameGeometry {
  public:
   /// Splits all procedurals into leaves and computes the boxes of each leaf. Throws Error, of kind kMemory if
@@ -60,6 +61,8 @@ class FrameGeometry {
  private:
   FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
                 const ResidentChunksOptions& options, const Job& job, std::vector<KeptChunk> kept);
+  /// Returns the area of the boxes of all leaves.
+  BoundsArea chunks_area() const;
 
   std::unique_ptr<const FrameChunks> chunks_;
   bool is_quick_ = false;                             // FrameChunks::bound_quickly()

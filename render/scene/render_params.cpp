@@ -139,7 +139,9 @@ const Schema<RenderParams>& RenderParams::schema() {
                  "strands grow. `none`: no boxes, all strands grow before rendering; `conservative`: boxes "
                  "from the skin, strand lengths and operators; "
                  "`exact`: strands grow once beforehand and are measured over the whole time from half a "
-                 "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
+                 "frame before to half a frame after the frame. If all chunks take at most half of the free "
+                 "part of `memory`, and no groom has a cache, they are kept instead of growing again, as "
+                 "with `none`; `exact-shutter`: as `exact`, but measured "
                  "only while the shutter is open; `linear`: "
                  "as `exact-shutter`, with boxes that move with the strands",
          .removed = {"user", "boxes that it made smaller could lose strands; use conservative or exact"}});

@@ -116,6 +116,10 @@ TEST(ClosestPointTree, FindsWhatBruteForceFinds) {
       brute_force(mesh, point, truth);
       ClosestPoint found;
       ASSERT_TRUE(tree.closest(point, kFar, found));
+      ClosestPoint place;
+      ASSERT_TRUE(tree.closest_position(point, kFar, place));
+      EXPECT_EQ(place.position, found.position);
+      EXPECT_EQ(place.distance, found.distance);
       EXPECT_NEAR(found.distance, truth, 2e-6 * (1 + truth));
       EXPECT_NEAR((found.position - point).length(), truth, 1e-6 * (1 + truth));
       EXPECT_NEAR(found.normal.length(), 1, 1e-6);

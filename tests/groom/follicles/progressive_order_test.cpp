@@ -25,7 +25,8 @@ class Coat {
       : rest_(shapes::surface_of(cage)),
         density_{scene_text::read<Field>(density), {}},
         count_(count),
-        source_(*rest_, density_, 7, count * kCandidatesPerFollicle, job_) {}
+        source_(*rest_, density_, 7, count * kCandidatesPerFollicle,
+                measure_surface(*rest_, density_, job_)) {}
 
   std::optional<std::vector<uint32_t>> order(const HeldCandidates& held) {
     CandidateSupply supply(source_, held.parts, job_);

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "procedurals/fur.h"
+#include "render/accel/embree_chunk.h"
+#include "render/accel/fur_chunk.h"
+#include "render/frame/frame_geometry.h"
 #include "tests/procedurals/random_coats.h"
 #include "tests/support/allocation_meter.h"
 #include "tests/support/quiet_job.h"
@@ -99,6 +102,29 @@ TEST_F(FrameChunksTest, BytesAreThoseOfTheHeap) {
   const auto [few_said, few_taken] = measure(20);
   const auto [many_said, many_taken] = measure(5);
   EXPECT_NEAR((many_said - few_said) / (many_taken - few_taken), 1.0, 0.25);
+}
+
+// Where memory allows, the growth that measures boxes is the only one.
+TEST_F(FrameChunksTest, LeavesGrowOnceWhereMemoryAllows) {
+  const RandomCoat coat(1, {});
+  for (const bool roomy : {true, false}) {
+    RenderScene scene = scene_of(coat, uint64_t(4) << 30);
+    if (!roomy) {
+      job_.ledger().set_limit(0);
+      const FrameChunks chunks(scene, job_);
+      size_t all = 0;
+      for (uint32_t chunk = 0; chunk < chunks.size(); ++chunk)
+        all += chunks.is_skin(chunk) ? EmbreeChunk::bytes_bound(chunks.counts(chunk))
+                                     : FurChunk::bytes_bound(chunks.counts(chunk), FurChunkOptions());
+      scene.render.memory.bytes = static_cast<uint64_t>(job_.ledger().budgeted()) + all;
+    }
+    job_.ledger().set_limit(scene.render.memory.bytes);
+    FrameStatistics statistics;
+    const auto geometry = FrameGeometry::make(scene, job_, statistics);
+    const auto leaves = static_cast<uint32_t>(coat.groom->follicles().leaves().size());
+    for (uint32_t leaf = 0; leaf < leaves; ++leaf) EXPECT_EQ(geometry->growths(leaf), roomy ? 1u : 0u);
+    EXPECT_GT(statistics.growth.area.chunks, 0);
+  }
 }
 
 }  // namespace
