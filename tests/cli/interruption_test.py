@@ -87,7 +87,7 @@ class Interruption(ProgramTest):
     def test_a_picture_of_no_samples_replaces_nothing_when_boxes_are_measured(self):
         self.keeps("--set", "grooms.coat.strands=60000", "--set", "grooms.coat.points=60", "--set",
                    "grooms.coat.leaf_strands=200",
-                   "--set", "render.lod.enabled=false", "--threads", "1", stage="bound")
+                   "--set", "render.lod.enabled=false", "--threads", "1", stage="grow")
 
     def test_what_a_killed_run_left_is_swept_by_the_next(self):
         process = self.start_render("-o", "a.exr", "--set", "image={width: 3000, height: 2000, light_layers: false}",
