@@ -120,7 +120,7 @@ Measured measure_bounces(const SceneDescription& scene, int samples, const Measu
       {"Reflection cache",
        {select(report.data, {"variant", "cells", "paths_per_cell", "lookups", "found", "cache_bytes"},
                "Cells of all sizes; paths in a cell, on average; paths that asked for the light of their "
-               "second surface, and the fraction that was answered; memory.")}});
+               "third surface, and the fraction that was answered; memory.")}});
   return measured;
 }
 

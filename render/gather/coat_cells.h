@@ -48,7 +48,7 @@ inline uint64_t pack(int level, uint32_t gather_point) {
 class CoatCells {
  public:
   static constexpr float kPixels = 2;
-  static constexpr float kPatchPixels = 8;
+  static constexpr float kPatchPixels = 4;
 
   /// Keeps a reference to `fur`. `samples`: samples per pixel that share light.
   CoatCells(const Camera& camera, const std::vector<FurPart>& fur, float samples);

@@ -24,10 +24,10 @@ class IndirectPaths::ArrivingLight {
         counts_(scratch.reflections),
         clamp_(clamp) {}
 
-  /// Ends the path at its second surface, after shadow rays, if the cache knows what else this surface
+  /// Ends the path at its third surface, after shadow rays, if the cache knows what else this surface
   /// reflects.
   Arrival arrive(const PathState& path, const HitGeometry& hit_geometry) {
-    if (!cache_ || path.vertex > 1) return Arrival::kGoOn;
+    if (!cache_ || path.vertex != ReflectionCache::kVertex) return Arrival::kGoOn;
     const ReflectionSlots::Radiance reflected = cache_->find(path.ray, path.hit, hit_geometry);
     ++counts_.lookups;
     if (!reflected) return Arrival::kGoOn;

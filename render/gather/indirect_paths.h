@@ -18,7 +18,7 @@ namespace pelage {
 /// safety: const members may be called from any thread, each with its own scratch.
 class IndirectPaths {
  public:
-  /// Keeps references to its arguments, except `options`. `cache`: ends paths at their second surface; may
+  /// Keeps references to its arguments, except `options`. `cache`: ends paths at their third surface; may
   /// be empty.
   IndirectPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                 const CameraSamples& camera, const PathOptions& options,

@@ -5,7 +5,7 @@ namespace pelage {
 namespace {
 
 /// The mean of a patch weighs as much as this number of a gather point's own paths. See docs/lab/GATHER.md.
-constexpr float kPatchPaths = 32;
+constexpr float kPatchPaths = 8;
 
 Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
   Rgb result(0);

@@ -52,7 +52,7 @@ enum class Arrival {
 /// It may have a third:
 ///   arrive(path, hit_geometry)
 ///       Receives each vertex after the first, before its light is found. `hit_geometry`: the geometry that
-///       was hit. Returns what the path does there, an Arrival.
+///       was hit. Returns what the path does there, an Arrival. May change path.throughput.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>

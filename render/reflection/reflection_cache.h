@@ -17,6 +17,9 @@ namespace pelage {
 /// Thread safety: const members may be called from any thread.
 class ReflectionCache {
  public:
+  /// PathState::vertex at which paths read the cache: their third surface. The
+  /// earlier, the fewer rays, but the more light is blurred by cells (docs/lab/GATHER.md).
+  static constexpr uint32_t kVertex = 2;
   /// Min count of paths for an estimate, in a cell of the largest size.
   static constexpr uint32_t kFewestPaths = 8;
 

@@ -5,34 +5,39 @@
 #include <optional>
 
 #include "base/hash.h"
+#include "render/reflection/reflection_cache.h"
 #include "render/sampling/systematic_choice.h"
 
 namespace pelage {
 
-/// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light, except the
+/// A sink of PathWalk: sums up the light that the third surface of a path reflects, by light, except the
 /// light that shadow rays from this surface find.
 class ReflectionPaths::Recorder {
  public:
   Recorder(const FrameScene& scene, const CellKeys& keys, const CellRange& range, std::vector<Rgb>& reflected)
       : scene_(scene), keys_(keys), range_(range), reflected_(reflected) {}
 
-  Arrival arrive(const PathState& path, const HitGeometry& hit_geometry) {
-    if (path.vertex > 1) return Arrival::kGoOn;
+  Arrival arrive(PathState& path, const HitGeometry& hit_geometry) {
+    if (path.vertex != ReflectionCache::kVertex) return Arrival::kGoOn;
     cells_ = keys_.of(path.ray, path.hit, hit_geometry);
     if (cells_ && !range_.contains(*cells_)) cells_.reset();
+    weight_ = luminance(path.weight);
+    path.throughput = Rgb(1);  // from here on
     return cells_ ? Arrival::kGoOn : Arrival::kEnd;
   }
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
-    if (path.vertex > 1 && through > 0)
+    if (path.vertex > ReflectionCache::kVertex && through > 0)
       reflected_[scene_.source(from.light)] +=
           path.throughput * from.value.total() * from.arriving * (through * factor);
   }
   void hit_light(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
-    if (weight * through > 0)
+    if (path.vertex >= ReflectionCache::kVertex && weight * through > 0)
       reflected_[scene_.source(light)] += path.throughput * radiance * (weight * through);
   }
-  /// Returns the cells of the second surface; empty where there is none, or no cell of the range.
+  /// Returns the cells of the third surface; empty where there is none, or no cell of the range.
   const std::optional<CellPath>& cells() const { return cells_; }
+  /// Returns the fraction of the light of the third surface that reaches the camera.
+  float weight() const { return weight_; }
 
  private:
   const FrameScene& scene_;
@@ -40,6 +45,7 @@ class ReflectionPaths::Recorder {
   const CellRange& range_;
   std::vector<Rgb>& reflected_;
   std::optional<CellPath> cells_;
+  float weight_ = 0;
 };
 
 ReflectionPaths::ReflectionPaths(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
@@ -100,10 +106,9 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
   if (!point.can_hit_own_strand()) ray.start = hit.start;
   scratch.reflected.assign(scene_.sources(), Rgb(0));
   Recorder recorder(scene_, keys_, cells, scratch.reflected);
-  const float weight = luminance(path.weight);
   walk_.follow(ray, path, scratch.direct, scratch, recorder);
   if (!recorder.cells()) return;
-  table.add(*recorder.cells(), weight, scratch.reflected);
+  table.add(*recorder.cells(), recorder.weight(), scratch.reflected);
 }
 
 }  // namespace pelage

@@ -13,8 +13,8 @@
 namespace pelage {
 
 /// Traces the paths that fill the reflection cache. A path starts at a camera sample of its own and is traced
-/// as `path` does, to its end. It gives one estimate of the radiance that leaves its second surface towards
-/// the first one, by light, to each cell that contains this surface; without the light that shadow rays from
+/// as `path` does, to its end. It gives one estimate of the radiance that leaves its third surface towards
+/// the second one, by light, to each cell that contains this surface; without the light that shadow rays from
 /// this surface find, because each path that ends in a cell traces such rays itself. The estimates are
 /// unbiased, so the mean of a cell keeps energy. Thread safety: const members may be called from any thread,
 /// each with its own scratch.
@@ -26,7 +26,7 @@ class ReflectionPaths {
 
   struct Scratch final : SampleScratch {
     DirectLightScratch direct;
-    std::vector<Rgb> reflected;  // by the second surface of a path, by light
+    std::vector<Rgb> reflected;  // by the third surface of a path, by light
   };
 
   /// The part of all paths that is traced at once.

@@ -65,10 +65,10 @@ const Schema<GatherParams>& GatherParams::schema() {
            .min = 0.05,
            .max = 1});
     s.key("cache", &GatherParams::cache,
-          {.help = "true: indirect paths end at the second surface. There, shadow rays are traced, and all "
+          {.help = "true: indirect paths end at the third surface. There, shadow rays are traced, and all "
                    "other light is read from a cache of cells about 8 pixels large, which paths of the "
                    "whole picture fill first. Glossy skins are not cached. Needs `reuse: true`",
-           .default_text = "true with at least 2 `bounces`; with more than 8 skins, at least 8"});
+           .default_text = "true with at least 3 `bounces`; with more than 8 skins, at least 8"});
     s.key("cache_paths", &GatherParams::cache_paths,
           {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});
     s.key(

@@ -104,9 +104,9 @@ struct RenderParams {
     const bool pays = integrator == Integrator::kGather && skins <= kFewSkins;
     return skin_ball.value_or(pays ? SkinBallUse::kExact : SkinBallUse::kOff);
   }
-  /// Up to this number of `bounces`, the reflection cache is off by default. A single bounce ends where the
-  /// cache would end it. In crowds, an animal covers few pixels, and few paths fill its cells.
-  static constexpr int kFewBounces = 1, kFewBouncesInCrowds = 7;
+  /// Up to this number of `bounces`, the reflection cache is off by default. Two bounces end where the cache
+  /// would end them. In crowds, an animal covers few pixels, and few paths fill its cells.
+  static constexpr int kFewBounces = 2, kFewBouncesInCrowds = 7;
   /// Returns whether indirect paths of `gather` end in the reflection cache, in a scene with `skins` skins.
   bool uses_cache(size_t skins) const {
     const int few = skins <= kFewSkins ? kFewBounces : kFewBouncesInCrowds;

@@ -88,7 +88,7 @@ class ScreenDoorMean : public ChunkAccelTest {
   }
   /// Within 0.5 % of the true mean, which must be measured that accurately.
   void expect_unbiased(const Thicket& thicket, float opacity, const char* what) {
-    const Means means = measure(thicket, opacity, 800000);
+    const Means means = measure(thicket, opacity, 400000);
     SCOPED_TRACE(testing::Message() << what << ", opacity " << opacity << ": " << means.product << " "
                                     << means.door << " +- " << means.deviation);
     EXPECT_GT(means.product, 0.1);

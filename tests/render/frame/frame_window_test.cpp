@@ -235,7 +235,7 @@ TEST(FrameWatch, SeesCoarsePicturesBeforeGatherPrepares) {
   SkinBallScene scene;
   scene.render.integrator = Integrator::kGather;
   scene.render.skin_ball = SkinBallUse::kExact;
-  scene.render.bounces = 2;
+  scene.render.bounces = 4;
   scene.render.samples = 2;
   NoProgress none;
   const FrameResult alone = scene.run_frame({}, 2, none);

@@ -25,8 +25,8 @@ class CacheFillTest : public ::testing::Test {
     parts.add_fur(furball(300, 0.5f, 0.02f), diffuse_fibre(Rgb(0.9f)));
     parts.add_skin(sphere_mesh(0.9f), LambertParams{});
     parts.render.samples = 8;
-    parts.render.bounces = 3;
-    parts.render.gather.cache_paths = 6;
+    parts.render.bounces = 6;
+    parts.render.gather.cache_paths = 12;
     scene_.emplace(RenderScene{std::move(parts.fur), parts.skins, parts.materials,
                                LightSet(std::move(lights)), Camera(parts.camera, 1, 24, 24), parts.image,
                                parts.render});
@@ -35,7 +35,7 @@ class CacheFillTest : public ::testing::Test {
   Job job() { return {workers_, ledger_, progress_}; }
 
   struct Filled {
-    std::vector<Rgb> answers;  ///< of find() for second surfaces of paths; -1 where there is none
+    std::vector<Rgb> answers;  ///< of find() for the second surfaces of paths; -1 where there is none
     ReflectionStatistics counts;
   };
   Filled fill(const CachePlan& plan) {
