@@ -58,7 +58,8 @@ std::string describe_item(const CrowdParams& crowd) {
 }
 
 std::string describe_item(const ArchiveParams& archive) {
-  return fmt::format("{}, {} surfaces", archive.rib.path.string(), archive.materials.items.size());
+  return fmt::format("{}, {}", archive.rib.path.string(),
+                     counted(static_cast<int64_t>(archive.materials.items.size()), "surface"));
 }
 
 std::string describe_item(const LightParams& light) { return kind_of(light); }

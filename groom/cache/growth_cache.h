@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -33,8 +34,8 @@ class GrowthCache {
   /// stores unless they are few. `warn` receives a line for a damaged file, which is replaced.
   FollicleTree follicles(const ContentHash& key, const SurfaceTopology& topology,
                          const std::function<FollicleTree()>& place, const WarningSink& warn) const;
-  /// Removes all files.
-  ContentStore::Removed clear() const { return store_.prune(std::chrono::seconds(-1)); }
+  /// Removes all files, also those whose time of use seems to lie in the future because clocks differ.
+  ContentStore::Removed clear() const { return store_.prune(std::chrono::seconds::min()); }
 
  private:
   ContentStore store_;

@@ -25,7 +25,7 @@ const Schema<GatherParams>& GatherParams::schema() {
         {.unit = "pixels",
          .help = "Maximum distance between gather points along a strand. Samples near a gather point share "
                  "the light that arrives there. A larger distance gives less noise, but blurs shadows along "
-                 "strands. Indirect light is also averaged over neighbouring strands, over about 8 pixels",
+                 "strands. Indirect light is also averaged over neighbouring strands, over about 4 pixels",
          .min = 0.25,
          .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,

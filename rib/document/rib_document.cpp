@@ -203,6 +203,7 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
                    std::vector<Problem>& warnings) {
   const SourcePosition at{path.string(), 1, 1};
   const RibFrames frames = read_rib_frames(path, true, use, max_request_bytes, warnings);
+  if (frames.other_lights) warnings.push_back(*frames.other_lights);
   const RibScene& rib = frames.first;
   if (!rib.camera.stated)
     throw Error(ErrorKind::kInput, {path.string(), 0, 0},

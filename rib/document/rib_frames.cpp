@@ -43,8 +43,7 @@ bool is_same(const RibLight& a, const RibLight& b) {
 /// Collects the frames of a file in their order, and then what is outside of them.
 class FrameCollector {
  public:
-  FrameCollector(std::filesystem::path path, RibFrames& frames, std::vector<Problem>& warnings)
-      : path_(std::move(path)), frames_(frames), warnings_(warnings) {}
+  FrameCollector(std::filesystem::path path, RibFrames& frames) : path_(std::move(path)), frames_(frames) {}
 
   void add(const RibScene& scene) {
     const bool stated = scene.camera.stated;
@@ -71,19 +70,17 @@ class FrameCollector {
   void compare_lights(const RibScene& scene) {
     const std::vector<RibLight>&a = frames_.first.lights, &b = scene.lights;
     const auto same = [](const RibLight& x, const RibLight& y) { return is_same(x, y); };
-    if (warned_ || std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return;
-    warned_ = true;
-    warnings_.push_back(
-        {{path_.string(), 1, 1},
-         fmt::format("frame {} has other lights than frame {}, whose lights shine in all frames",
-                     *scene.frame, frames_.first.frame.value_or(0))});
+    if (frames_.other_lights || std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return;
+    frames_.other_lights =
+        Problem{{path_.string(), 1, 1},
+                fmt::format("frame {} has other lights than frame {}, whose lights shine in all frames",
+                            *scene.frame, frames_.first.frame.value_or(0))};
   }
 
   const std::filesystem::path path_;
   RibFrames& frames_;
-  std::vector<Problem>& warnings_;
   std::map<std::string, size_t> by_name_;  // materials, by the name in their frame
-  bool is_empty_ = true, warned_ = false;
+  bool is_empty_ = true;
 };
 
 }  // namespace
@@ -91,8 +88,7 @@ class FrameCollector {
 RibFrames read_rib_frames(const std::filesystem::path& path, bool mirror, const RibUse& use,
                           size_t max_request_bytes, std::vector<Problem>& warnings) {
   RibFrames frames;
-  std::vector<Problem> own_warnings;
-  FrameCollector collector(path, frames, own_warnings);
+  FrameCollector collector(path, frames);
   RibReadOptions options;
   options.geometry = false;
   options.mirror_left_handed = mirror;
@@ -102,7 +98,6 @@ RibFrames read_rib_frames(const std::filesystem::path& path, bool mirror, const 
   const RibScene rest = read_rib(path, options);
   collector.add(rest);
   warnings.insert(warnings.end(), rest.warnings.begin(), rest.warnings.end());
-  warnings.insert(warnings.end(), own_warnings.begin(), own_warnings.end());
   return frames;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,12 @@ struct RibFrames {
   RibScene first;                           ///< the first frame with a picture, or the whole file
   std::map<int, RibCamera> cameras;         ///< of all frames with pictures; empty for a file without frames
   std::vector<RibFrameMaterial> materials;  ///< of all frames, without repetitions
+  std::optional<Problem> other_lights;      ///< a warning, if later frames have other lights than `first`
 };
 
 /// Reads a file once. Frames that only draw shadow maps count only if the file has no others. `mirror`: as
-/// RibReadOptions::mirror_left_handed. Appends the warnings of all frames, and one if frames have different
-/// lights. Throws Error (kInput).
+/// RibReadOptions::mirror_left_handed. Appends the warnings of all frames. Throws Error
+/// (kInput).
 RibFrames read_rib_frames(const std::filesystem::path& path, bool mirror, const RibUse& use,
                           size_t max_request_bytes, std::vector<Problem>& warnings);
 

@@ -46,7 +46,6 @@ constexpr Standard kStandard[] = {
     {"P", "vertex point"},
     {"Pz", "vertex float"},
     {"Pw", "vertex hpoint"},
-    {"Pz", "vertex float"},
     {"N", "varying normal"},
     {"Np", "uniform normal"},
     {"Cs", "varying color"},

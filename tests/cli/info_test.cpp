@@ -56,7 +56,7 @@ TEST(InfoScene, OutlinesRib) {
   EXPECT_EQ(run_info(options), 0);
   const std::string text = testing::internal::GetCapturedStdout();
   for (const char* part : {": scene, 640 x 480 pixels", "plastic: lambert\n",
-                           "1 archives\n  s: ", "s.rib, 1 surfaces\n", "ambientlight: environment\n"})
+                           "1 archives\n  s: ", "s.rib, 1 surface\n", "ambientlight: environment\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
