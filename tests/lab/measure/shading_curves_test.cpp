@@ -36,11 +36,11 @@ TEST(ShadingCurves, OmitTheCacheSettingThatGatherHasAnyway) {
     return found;
   };
   using Ids = std::vector<std::string>;
-  EXPECT_EQ(which(1, {}), Ids{"cache"});
-  EXPECT_EQ(which(2, {}), Ids{"no_cache"});
-  EXPECT_EQ(which(2, {}, 1), (Ids{"cache", "no_cache"})) << "a crowd may be small";
-  EXPECT_EQ(which(2, {}, 0, 9), (Ids{"cache", "no_cache"})) << "not all of them may be drawn";
-  EXPECT_EQ(which(1, {}, 1), Ids{"cache"});
+  EXPECT_EQ(which(2, {}), Ids{"cache"});
+  EXPECT_EQ(which(3, {}), Ids{"no_cache"});
+  EXPECT_EQ(which(3, {}, 1), (Ids{"cache", "no_cache"})) << "a crowd may be small";
+  EXPECT_EQ(which(3, {}, 0, 9), (Ids{"cache", "no_cache"})) << "not all of them may be drawn";
+  EXPECT_EQ(which(2, {}, 1), Ids{"cache"});
   EXPECT_EQ(which(8, {}, 1), Ids{"no_cache"});
   EXPECT_EQ(which(4, true, 1), Ids{"no_cache"});
   EXPECT_EQ(which(8, false), Ids{"cache"});
