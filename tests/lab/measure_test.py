@@ -121,7 +121,8 @@ class Measure(unittest.TestCase):
             self.assertGreater(lights[1], lights[0])
             self.assertAlmostEqual(sum(rows[f"{method}, {count}"]["light_of_last_bounces"] for count in counts), lights[-1])
             self.assertLess(abs(rows[f"{method}, 64 bounces"]["light_off"]), 0.1)
-        self.assertGreater(rows["gather, cache: true, 8 bounces"]["found"], 0.3)
+        for key in "cells", "lookups":
+            self.assertGreater(rows["gather, cache: true, 8 bounces"][key], 0)
         self.assertGreater(rows["gather, cache: true, 8 bounces"]["cache_bytes"], 0)
         self.assertEqual(rows["gather, cache: false, 8 bounces"]["cells"], 0)
 
@@ -172,10 +173,7 @@ class Measure(unittest.TestCase):
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_gather_point"], 1)
         self.assertGreater(rows["gather, 16"]["samples_per_gather_point"], 1)
         cached = rows["gather, cache: true, 16"]
-        self.assertGreater(cached["reflection_cells"], 0)
-        self.assertGreater(cached["reflection_paths"], 0)
-        self.assertGreater(cached["reflection_lookups"], 0)
-        self.assertGreater(cached["reflections_found"], 0)
+        self.assertEqual(cached["reflection_lookups"], 0)  # a single bounce does not reach a third surface
         self.assertEqual(rows["gather, 16"]["reflection_lookups"], 0)
         for row in rows.values():  # where both reach an error, the gain is the ratio of their times
             if row["gain_at_5"] is not None:
