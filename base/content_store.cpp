@@ -297,9 +297,9 @@ ContentStore::Removed ContentStore::shrink(uint64_t max_bytes) const {
   Removed removed;
   for (const Entry& entry : found) {
     if (sum <= max_bytes) break;
-    sum -= entry.bytes;
     std::error_code failed;
     if (!std::filesystem::remove(entry.file, failed)) continue;
+    sum -= entry.bytes;
     ++removed.files;
     removed.bytes += entry.bytes;
   }

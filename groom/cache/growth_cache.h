@@ -14,8 +14,8 @@ namespace pelage {
 class SurfaceTopology;
 
 /// The cache of a user: follicles of coats, kept between runs for all scenes, without a key in a scene. It
-/// changes no strand: what it returns equals what placing returns, bit by bit. A missing, damaged or
-/// unwritable cache is no error. Thread safety: const members may be called from any thread and by many
+/// changes no strand: stored follicles equal newly placed ones bit for bit. A missing, damaged or unwritable
+/// cache is no error. Thread safety: const members may be called from any thread and by many
 /// processes.
 class GrowthCache {
  public:

@@ -76,8 +76,8 @@ std::string gain_text(const ShadingRuns& all, const Report& report) {
   const double pixels = number("equal_gain"), of_4 = number("equal_gain_4"), of_16 = number("equal_gain_16");
   if (std::isfinite(pixels + of_4 + of_16))
     text += fmt::format(
-        "After {:.2f} CPU seconds, relMSE of path is {:.2f} times that of gather in pixels, {:.2f} times in "
-        "means of 4 x 4 pixels, and {:.2f} times in means of 16 x 16. ",
+        "After {:.2f} CPU seconds each, the relMSE of path divided by that of gather is {:.2f} for pixels, "
+        "{:.2f} for means of 4 x 4 pixels and {:.2f} for means of 16 x 16 pixels. ",
         number("equal_cpu_s"), pixels, of_4, of_16);
   if (const double error = number("systematic_8"); std::isfinite(error))
     text +=

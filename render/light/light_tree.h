@@ -58,7 +58,8 @@ class LightTree {
     for (uint32_t i = 0; i < nodes_.size();) {
       const Node& node = nodes_[i];
       const V3f to = node.ball.center - from;
-      const float along = to.dot(direction), radius = kGrown * node.ball.radius;
+      const float along = to.dot(direction);
+      const float radius = kGrown * node.ball.radius + kRounding * (std::abs(along) + node.ball.radius);
       const bool meets = along > -radius && (to - along * direction).length2() <= radius * radius;
       if (meets && node.is_leaf()) visit(size_t{node.light});
       i = meets ? i + 1 : node.end;
@@ -66,8 +67,8 @@ class LightTree {
   }
 
  private:
-  /// Balls are tested slightly larger, so that rounding loses no light.
-  static constexpr float kGrown = 1.001f;
+  /// Balls are tested slightly larger, and more so far away, so that rounding loses no light.
+  static constexpr float kGrown = 1.001f, kRounding = 4e-6f;
 
   /// The first child of a node follows the node; the second child is the end of the first.
   struct Node {

@@ -49,8 +49,8 @@ struct RibMaterial {
   bool strand_opacity = false;  ///< the curves have the attribute "opacity", a factor of `opacity`
 };
 
-/// Returns the name of the material of a frame whose material of this name differs from that of the first
-/// frame.
+/// Returns the name that a material gets in our scene if the first frame has another material of the same
+/// `name`. `frame`: the frame of the material.
 inline std::string frame_material(const std::string& name, int frame) {
   return name + "@" + std::to_string(frame);
 }

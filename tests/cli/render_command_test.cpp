@@ -23,6 +23,16 @@ class RenderCommandTest : public testing::Test {
     result.progress = ProgressStyle::kQuiet;
     return result;
   }
+  /// Renders one sample with these settings, and returns what was written to the standard error stream.
+  std::string shown_with(std::vector<Override> overrides) const {
+    Options o = options("x.exr");
+    o.progress = ProgressStyle::kPlain;
+    o.overrides = std::move(overrides);
+    o.overrides.push_back({"render.samples", "1"});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_render(o), 0);
+    return testing::internal::GetCapturedStderr();
+  }
   SmallScene scene_;
 };
 
@@ -93,13 +103,7 @@ TEST_F(RenderCommandTest, EndingsAreReadInAnyCase) {
 
 TEST_F(RenderCommandTest, ScenesWithoutLightAreNamed) {
   const auto warnings = [&](std::vector<Override> overrides) {
-    Options o = options("x.exr");
-    o.progress = ProgressStyle::kPlain;
-    o.overrides = std::move(overrides);
-    o.overrides.push_back({"render.samples", "1"});
-    testing::internal::CaptureStderr();
-    EXPECT_EQ(run_render(o), 0);
-    const std::string shown = testing::internal::GetCapturedStderr();
+    const std::string shown = shown_with(std::move(overrides));
     return shown.find("pictures will be black") != std::string::npos ? 1 : 0;
   };
   EXPECT_EQ(warnings({}), 0);
@@ -110,13 +114,7 @@ TEST_F(RenderCommandTest, ScenesWithoutLightAreNamed) {
 
 TEST_F(RenderCommandTest, BlackAndEmptyPicturesSayWhy) {
   const auto said = [&](std::vector<Override> overrides) {
-    Options o = options("x.exr");
-    o.progress = ProgressStyle::kPlain;
-    o.overrides = std::move(overrides);
-    o.overrides.push_back({"render.samples", "1"});
-    testing::internal::CaptureStderr();
-    EXPECT_EQ(run_render(o), 0);
-    const std::string shown = testing::internal::GetCapturedStderr();
+    const std::string shown = shown_with(std::move(overrides));
     return shown.substr(std::min(shown.find("the picture is "), shown.size()), 20);
   };
   EXPECT_EQ(said({}), "");
