@@ -13,6 +13,7 @@ from program_scene import ProgramTest, exr_pixels
 ProgramTest.PELAGE = sys.argv.pop(1)
 KILLS = int(os.environ.get("PELAGE_SOAK", 0)) or 8
 SMALL = ["--set", "image={width: 96, height: 64}", "--set", "render.samples=150"]
+LONGER = [*SMALL[:3], "render.samples=600"]  # several checkpoints, also after a first one
 ENDLESS = ["--set", "image={width: 96, height: 64}", "--set", "render.samples=100000"]
 FILE = "ck/frame-0001.checkpoint"
 
@@ -163,14 +164,14 @@ class Checkpoints(ProgramTest):
         self.assertIn(FILE + ": damaged cache file: it is truncated; the frame is rendered from the beginning", err)
 
     def test_a_full_disk_keeps_the_last_checkpoint_and_stops_nothing(self):
-        process = self.start_render(*SMALL, "--every", "0.1s")
+        process = self.start_render(*LONGER, "--every", "0.1s")
         self.after_checkpoint(process)
         process.kill()
         process.wait()
         size = (self.path / FILE).stat().st_size
         before = self.inode()
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size - 1, size - 1))
-        process = self.start_render(*SMALL, "--every", "0.1s", "--resume", preexec_fn=limit)
+        process = self.start_render(*LONGER, "--every", "0.1s", "--resume", preexec_fn=limit)
         warned = False
         for line in process.stderr:
             if FILE + ": cannot write: File too large" in line:
@@ -179,7 +180,7 @@ class Checkpoints(ProgramTest):
                 break
         self.assertTrue(warned)
         self.end(process)
-        self.assertEqual(self.pixels("a.exr"), self.whole(*SMALL))
+        self.assertEqual(self.pixels("a.exr"), self.whole(*LONGER))
 
     def test_what_cannot_have_checkpoints_is_refused_at_once(self):
         for setting in ("render.adaptive={noise: 0.05}", "render.time_limit=5"):
