@@ -61,7 +61,7 @@ endfunction()
 # every start of a program costs more than most suites, CTest runs it in a few shards instead. No test uses the cache of
 # the user (PELAGE_CACHE).
 function(pelage_test_program target module label)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "RENDERS" "" "SOURCES;ALONE;DEPS;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
   pelage_join_sources(${target} ${ARG_ALONE})
   list(TRANSFORM ARG_DEPS PREPEND pelage_)
@@ -90,28 +90,37 @@ include("@PROJECT_SOURCE_DIR@/cmake/TestSuites.cmake")
     add_test(NAME ${module}.${shard} COMMAND ${target} --gtest_brief=1)
     set_tests_properties(${module}.${shard} PROPERTIES LABELS "${module};${label}" TIMEOUT 1800
                          ENVIRONMENT "PELAGE_CACHE=off;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+    if(ARG_RENDERS)
+      set_tests_properties(${module}.${shard} PROPERTIES ENVIRONMENT_MODIFICATION
+                           "ASAN_OPTIONS=string_append::detect_stack_use_after_return=0")
+    endif()
   endforeach()
 endfunction()
 
-# pelage_test(MODULE [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [ALONE ...] [DEPS modules...]
+# pelage_test(MODULE [RENDERS] [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [ALONE ...] [DEPS modules...]
 #             [LIBS dep...] [LABEL unit|slow])
 # The tests of a module. A source belongs to one of three lists, and so to the builds that can find something in it:
 #   SOURCES     what one thread computes: release and the address sanitizer
 #   THREADED    what several threads share: these two and the thread sanitizer
-#   STATISTICS  means and distributions of many samples (label `stat`): release alone; single evaluations of the same
-#               code are among the others
-# SUPPORT is compiled into every program of the module.
+#   STATISTICS  means and distributions of many samples, and measurements of memory (label `stat`): release alone;
+#               single evaluations of the same code are among the others
+# SUPPORT is compiled into every program of the module. RENDERS: the tests render or grow so much that the address
+# sanitizer does not look for uses of variables whose function has returned, which takes three times as long.
 function(pelage_test module)
-  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;ALONE;DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "RENDERS" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;ALONE;DEPS;LIBS" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
+  endif()
+  set(renders)
+  if(ARG_RENDERS)
+    set(renders RENDERS)
   endif()
   set(sources ${ARG_THREADED})
   if(NOT PELAGE_SANITIZE MATCHES "thread")
     list(APPEND sources ${ARG_SOURCES})
   endif()
   if(sources)
-    pelage_test_program(test_${module} ${module} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} ALONE ${ARG_ALONE} DEPS ${ARG_DEPS}
+    pelage_test_program(test_${module} ${module} ${ARG_LABEL} ${renders} SOURCES ${sources} ${ARG_SUPPORT} ALONE ${ARG_ALONE} DEPS ${ARG_DEPS}
                         LIBS ${ARG_LIBS})
   endif()
   if(ARG_STATISTICS AND NOT PELAGE_SANITIZE)

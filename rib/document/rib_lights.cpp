@@ -13,7 +13,6 @@ namespace {
 
 // Distant and point lights are small spheres.
 constexpr float kDistance = 10'000, kDistantHalfAngle = 0.25f, kPointRadius = 0.05f;
-constexpr float kRadians = std::numbers::pi_v<float> / 180;
 // The names of maps end with these, see TextureLibrary. Maps of other renderers are not lat-long images.
 constexpr const char* kMapEndings[] = {".hdr", ".exr", ".tif", ".tiff", ".tx", ".png", ".jpg", ".jpeg"};
 
@@ -136,7 +135,7 @@ class LightBlock {
     matrix_.multVecMatrix(V3f(from), from);
     matrix_.multVecMatrix(V3f(to), to);
     if (!((to - from).length() > 0)) return false;
-    const float sine = std::sin(std::clamp(half_angle, 0.01f, 60.0f) * kRadians);
+    const float sine = std::sin(std::clamp(half_angle, 0.01f, 60.0f) * (std::numbers::pi_v<float> / 180));
     sphere(-(to - from).normalized() * kDistance, kDistance * sine, radiance_ / (sine * sine));
     return true;
   }
