@@ -26,6 +26,12 @@ uint32_t samples_at_once(const FrameScene& scene) {
   return std::min(GatherTracer::max_samples(scene.sources()), static_cast<uint32_t>(scene.render.samples));
 }
 
+/// Returns the options with points on lights from `far_lights`.
+PathOptions with(PathOptions options, const FarLightSamples& far_lights) {
+  options.far_lights = &far_lights;
+  return options;
+}
+
 }  // namespace
 
 /// Memory, results and counts of one thread.
@@ -69,14 +75,15 @@ GatherTracer::GatherTracer(const FrameScene& scene, const Accel& accel, const Re
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      options_(options),
+      far_lights_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
+      options_(with(options, far_lights_)),
       memory_(std::move(memory)),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFewSamples),
       shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
-      points_(scene, shading_, camera_, samples_at_once(scene)),
+      points_(scene, shading_, camera_, far_lights_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
-      indirect_paths_(scene, accel, shading_, camera_, options, cache_) {
+      indirect_paths_(scene, accel, shading_, camera_, options_, cache_) {
   if (scene.render.draws_visible()) raster_.emplace(scene, accel, chunks, camera_);
 }
 

@@ -14,6 +14,7 @@
 #include "render/gather/path_sharing.h"
 #include "render/gather/shadow_rays.h"
 #include "render/gather/visible_points.h"
+#include "render/light/far_light_samples.h"
 #include "render/raster/tile_raster.h"
 #include "render/reflection/cache_fill.h"
 
@@ -67,6 +68,7 @@ class GatherTracer final : public TileIntegrator {
   const FrameScene scene_;
   const Accel& accel_;
   const FilmLayers& layers_;
+  const FarLightSamples far_lights_;
   const PathOptions options_;
   Memory memory_;
   const bool first_alone_;  // whether the first sample of a pixel shares no light with further samples

@@ -21,13 +21,12 @@ float turned(float u, size_t i) {
 }  // namespace
 
 VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shading,
-                             const CameraSamples& camera, uint32_t samples)
+                             const CameraSamples& camera, const FarLightSamples& far_lights, uint32_t samples)
     : scene_(scene),
       shading_(shading),
       camera_(camera),
       keys_(scene, samples),
-      far_lights_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
-      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &far_lights_) {}
+      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &far_lights) {}
 
 uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scratch,
                                         TileSamples& tile) const {

@@ -23,7 +23,7 @@ class VisiblePoints {
  public:
   /// Keeps references to its arguments. `samples`: max samples per pixel that share light.
   VisiblePoints(const FrameScene& scene, const FrameShading& shading, const CameraSamples& camera,
-                uint32_t samples);
+                const FarLightSamples& far_lights, uint32_t samples);
 
   /// A possible target of a shadow ray.
   struct Candidate {
@@ -67,7 +67,6 @@ class VisiblePoints {
   const FrameShading& shading_;
   const CameraSamples& camera_;
   GatherPointKeys keys_;
-  FarLightSamples far_lights_;
   DirectLight direct_;
 };
 

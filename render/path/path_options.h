@@ -5,11 +5,14 @@
 
 namespace pelage {
 
+class FarLightSamples;
 class SkinShadows;
 
 struct PathOptions {
   DirectTechniques direct = DirectTechniques::kBoth;
-  bool roulette = true;                ///< whether roulette may end paths early
+  bool roulette = true;  ///< whether roulette may end paths early
+  /// Where points on lights come from; null: Light::sample().
+  const FarLightSamples* far_lights = nullptr;
   const SkinShadows* balls = nullptr;  ///< inside the skins; null: shadow rays behind them are traced too
 };
 

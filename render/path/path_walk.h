@@ -32,6 +32,7 @@ struct PathState {
 /// What a path does at a vertex that it has reached.
 enum class Arrival {
   kGoOn,        ///< finds the light there, and continues
+  kPass,        ///< continues without shadow rays
   kShadowRays,  ///< traces shadow rays to lights, and ends
   kEnd,         ///< ends
 };
@@ -49,10 +50,12 @@ enum class Arrival {
 ///   hit_light(path, light, radiance, weight, through)
 ///       Receives a light that the ray sampled from the lobes hits. The light that arrives at the current
 ///       vertex is radiance * weight * through, where `through` is the fraction that nothing blocks.
-/// It may have a third:
+/// It may have two more:
 ///   arrive(path, hit_geometry)
 ///       Receives each vertex after the first, before its light is found. `hit_geometry`: the geometry that
 ///       was hit. Returns what the path does there, an Arrival. May change path.throughput.
+///   branches(path)
+///       Returns how many times the path continues from the current vertex, at least 1 (not from the first).
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
@@ -65,12 +68,12 @@ class PathWalk {
         accel_(accel),
         shading_(shading),
         options_(options),
-        direct_(scene.lights, scene.render.light_samples, options.direct) {}
+        direct_(scene.lights, scene.render.light_samples, options.direct, options.far_lights) {}
 
   /// Follows a path from its first vertex to its end. `first`: position and scattering of the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
-    if (scatter(first, path, true, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
+    if (scatter(first, path, Arrival::kGoOn, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
   /// Follows a path along `ray` from the first vertex to its end. The caller has sampled the direction of
   /// `ray` at the first vertex, and has divided `path.first` and `path.weight` by its density. Does not
@@ -108,7 +111,25 @@ class PathWalk {
         arrival = sink.arrive(path, scratch.thread.hit_geometry);
       if (arrival == Arrival::kEnd) return;
       const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry);
-      goes_on = scatter(point, path, arrival == Arrival::kGoOn, lights, scratch, sink);
+      if constexpr (requires { sink.branches(path); }) {
+        if (const uint32_t count = sink.branches(path); count > 1) {
+          branch(point, path, arrival, count, lights, scratch, sink);
+          return;
+        }
+      }
+      goes_on = scatter(point, path, arrival, lights, scratch, sink);
+    }
+  }
+  /// Continues a path `count` times from its current vertex; the sink receives 1 / count of the light of each
+  /// branch. Roulette treats each branch as the only one.
+  void branch(const ScatterPoint& point, const PathState& path, Arrival arrival, uint32_t count,
+              DirectLightScratch& lights, SampleScratch& scratch, Sink& sink) const {
+    for (uint32_t i = 0; i < count; ++i) {
+      PathState part = path;
+      part.stream = path.stream.branch(i, count);
+      part.random += i << 16;  // numbers that no ray of another branch has
+      part.throughput /= static_cast<float>(count);
+      if (scatter(point, part, arrival, lights, scratch, sink)) walk_on(part, lights, scratch, sink);
     }
   }
   /// Returns the count of shadow rays at the current vertex: after the first, twice as many. Such a vertex
@@ -121,11 +142,12 @@ class PathWalk {
 
   /// Finds the light at the current vertex and, if the path continues, traces the ray to the next vertex.
   /// Returns false where the path ends.
-  bool scatter(const ScatterPoint& point, PathState& path, bool continues, DirectLightScratch& lights,
+  bool scatter(const ScatterPoint& point, PathState& path, Arrival arrival, DirectLightScratch& lights,
                SampleScratch& scratch, Sink& sink) const {
     direct_.begin(point, lights);
-    if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
-    return continues && sample_lobes(point, path, lights, scratch, sink);
+    if (arrival != Arrival::kPass && options_.direct != DirectTechniques::kLobesOnly)
+      sample_lights(point, path, lights, scratch, sink);
+    return arrival != Arrival::kShadowRays && sample_lobes(point, path, lights, scratch, sink);
   }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;

@@ -18,12 +18,16 @@ class ReflectionPaths::Recorder {
       : scene_(scene), keys_(keys), range_(range), reflected_(reflected) {}
 
   Arrival arrive(PathState& path, const HitGeometry& hit_geometry) {
-    if (path.vertex != ReflectionCache::kVertex) return Arrival::kGoOn;
+    if (path.vertex < ReflectionCache::kVertex) return Arrival::kPass;
+    if (path.vertex > ReflectionCache::kVertex) return Arrival::kGoOn;
     cells_ = keys_.of(path.ray, path.hit, hit_geometry);
     if (cells_ && !range_.contains(*cells_)) cells_.reset();
     weight_ = luminance(path.weight);
     path.throughput = Rgb(1);  // from here on
-    return cells_ ? Arrival::kGoOn : Arrival::kEnd;
+    return cells_ ? Arrival::kPass : Arrival::kEnd;
+  }
+  uint32_t branches(const PathState& path) const {
+    return path.vertex == ReflectionCache::kVertex ? kBranches : 1;
   }
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
     if (path.vertex > ReflectionCache::kVertex && through > 0)

@@ -15,9 +15,11 @@ namespace pelage {
 /// Traces the paths that fill the reflection cache. A path starts at a camera sample of its own and is traced
 /// as `path` does, to its end. It gives one estimate of the radiance that leaves its third surface towards
 /// the second one, by light, to each cell that contains this surface; without the light that shadow rays from
-/// this surface find, because each path that ends in a cell traces such rays itself. The estimates are
-/// unbiased, so the mean of a cell keeps energy. Thread safety: const members may be called from any thread,
-/// each with its own scratch.
+/// this surface find, because each path that ends in a cell traces such rays itself. So a path traces no
+/// shadow rays before its fourth surface. At its third surface, it divides into kBranches branches: finding
+/// this surface costs about as much as the rest of a branch, which brings most of the noise. The estimates
+/// are unbiased, so the mean of a cell keeps energy. Thread safety: const members may be called from any
+/// thread, each with its own scratch.
 class ReflectionPaths {
  public:
   /// Keeps references to its arguments, except `options`.
@@ -42,6 +44,9 @@ class ReflectionPaths {
              ReflectionTable& table) const;
 
  private:
+  /// More branches give better estimates, but cost more than they gain (docs/lab/GATHER.md).
+  static constexpr uint32_t kBranches = 2;
+
   class Recorder;
   void follow(int x, int y, uint32_t sample, const CellRange& cells, Scratch& scratch,
               ReflectionTable& table) const;

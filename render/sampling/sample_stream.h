@@ -71,6 +71,15 @@ class SampleStream {
   /// Returns the dimension of the next number.
   uint32_t dimension() const { return dimension_; }
 
+  /// Returns the random numbers of one of `count` branches of a path. The branches of all samples of a pixel
+  /// are stratified together, like count times as many samples. Keeps dimension().
+  SampleStream branch(uint32_t index, uint32_t count) const {
+    SampleStream result = *this;
+    result.key_ = mix64(key_ + random_use("branch of a path"));
+    result.reversed_sample_ = detail::reverse_bits(detail::reverse_bits(reversed_sample_) * count + index);
+    return result;
+  }
+
   float next1d() {
     const uint64_t seeds = mix64(key_ + 2 * static_cast<uint64_t>(dimension_++) * kStep);
     const uint32_t index = shuffled_index(static_cast<uint32_t>(seeds));

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "render/light/far_light_samples.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/path/path_scene.h"
 
@@ -120,6 +124,27 @@ TEST(PathEstimators, LaterVerticesHaveTwoShadowRays) {
   EXPECT_LE(direct.shadow, direct.camera);
   EXPECT_GT(static_cast<double>(all.shadow - direct.shadow), 1.3 * static_cast<double>(all.indirect));
   EXPECT_LE(all.shadow - direct.shadow, 2 * all.indirect);
+}
+
+TEST(PathEstimators, PointsOnFarLightsComeFromTheOptions) {
+  PathScene scene(8, 8);
+  scene.add_fur(furball(300, 0.5f, 0.05f), diffuse_fibre(Rgb(0.9f)));
+  scene.camera.fov = 8;
+  scene.add_sky(Rgb(1));
+  scene.render.bounces = 0;
+  PathOptions options;
+  options.direct = DirectTechniques::kLightsOnly;
+  const auto mean = [&] { return luminance(picture_mean(scene.run(options).film).mean); };
+  const float usual = mean();
+  TextureLibrary textures(scene.ledger);
+  EnvironmentLightParams brighter;
+  brighter.radiance = Rgb(3);
+  std::vector<std::unique_ptr<Light>> lights;
+  lights.push_back(make_light("sky", brighter, 1, textures, scene.ledger));
+  const LightSet other(std::move(lights));
+  const FarLightSamples far_lights(other, 1, true);
+  options.far_lights = &far_lights;
+  EXPECT_NEAR(mean() / usual, 3, 0.2f);
 }
 
 TEST(PathEstimators, RouletteChangesNoMean) {

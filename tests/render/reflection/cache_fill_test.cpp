@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -123,6 +124,44 @@ TEST_F(CacheFillTest, TheSameCellsAreDroppedWithAnySlices) {
     EXPECT_EQ(sliced.counts.cells, whole.counts.cells);
     EXPECT_EQ(sliced.answers, whole.answers);
   }
+}
+
+/// In a closed room, no path ends early.
+TEST(CacheFill, APathDividesAtItsThirdSurfaceAndTracesNoShadowRaysBefore) {
+  PathScene room(16, 16);
+  room.add_skin(sphere_mesh(100), LambertParams{});  // around the camera
+  SphereLightParams lamp;
+  lamp.radius = 0.5f;
+  TextureLibrary textures(room.ledger);
+  std::vector<std::unique_ptr<Light>> lights;
+  lights.push_back(make_light("lamp", lamp, 1, textures, room.ledger));
+  RenderScene scene{
+      {},         room.skins, room.materials, LightSet(std::move(lights)), Camera(room.camera, 1, 16, 16),
+      room.image, room.render};
+  scene.render.samples = 4;
+  PathOptions options;
+  options.direct = DirectTechniques::kLightsOnly;
+  options.roulette = false;
+  const Workers workers(1);
+  NoProgress progress;
+  const Job job{workers, room.ledger, progress};
+  const auto rays = [&](int bounces) {
+    scene.render.bounces = bounces;
+    FrameStatistics statistics;
+    const auto geometry = FrameGeometry::make(scene, job, statistics);
+    CacheFill fill(scene, geometry->accel(), false, options, {CachePlan::with_slices(scene, 1), {}});
+    std::optional<ReflectionCache> cache;
+    fill.run(job, Stopwatch(), cache);
+    statistics = {};
+    fill.add_to(statistics);
+    return statistics.rays;
+  };
+  const RayStatistics short_paths = rays(2), long_paths = rays(4);
+  ASSERT_GT(short_paths.camera, 100);
+  EXPECT_EQ(short_paths.indirect, 2 * short_paths.camera);
+  EXPECT_EQ(short_paths.shadow, 0);
+  EXPECT_EQ(long_paths.indirect, (2 + 2 * 2) * long_paths.camera) << "two branches of two rays";
+  EXPECT_GT(long_paths.shadow, long_paths.camera);
 }
 
 }  // namespace

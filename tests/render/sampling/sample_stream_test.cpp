@@ -66,6 +66,25 @@ TEST(SampleStream, FirstPowersOfTwoOfEveryDrawAreNets) {
   }
 }
 
+TEST(SampleStream, BranchesAreANetOfTheirOwn) {
+  constexpr uint32_t kSamples = 16, kBranches = 4;
+  std::vector<int> hits(size_t{kSamples} * kBranches, 0);
+  for (uint32_t sample = 0; sample < kSamples; ++sample) {
+    SampleStream stream(7, 1, 2, sample);
+    stream.seek(3);
+    unsigned quarters = 0;
+    for (uint32_t branch = 0; branch < kBranches; ++branch) {
+      SampleStream of_branch = stream.branch(branch, kBranches);
+      EXPECT_EQ(of_branch.dimension(), 3u);
+      const float u = of_branch.next1d();
+      quarters |= 1u << static_cast<unsigned>(4 * u);
+      ++hits[static_cast<size_t>(u * static_cast<float>(hits.size()))];
+    }
+    EXPECT_EQ(quarters, 0b1111u) << "the branches of a sample are stratified";
+  }
+  for (int h : hits) EXPECT_EQ(h, 1);
+}
+
 TEST(SampleStream, FirstPowersOfTwoAreStratifiedInOneDimension) {
   for (uint32_t draw : {0u, 3u, 9u}) {
     for (int m = 0; m <= 12; ++m) {
