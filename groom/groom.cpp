@@ -164,7 +164,7 @@ FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const Prepa
   options.per_area = params.strands ? 0.0 : 1.0;
   if (params.density) options.density = params.density->with_textures(context.textures);
   if (stack->traits().restricts_coverage) {
-    options.coverage = [this](const V3f& at, const V3f& normal) { return stack->coverage(at, normal); };
+    options.coverage = [this](const FieldPoint& root) { return stack->coverage(root); };
   }
   options.seed = hash64(seed, random_use("follicles"));
   options.leaf_strands = params.leaf_size();

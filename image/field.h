@@ -26,6 +26,9 @@ struct FieldPoint {
   float u = 0, v = 0;  ///< texture coordinates of the root
   float along = 0;     ///< position along the strand: 0 at the root, 1 at the tip
   std::span<const FieldAttribute> attributes;
+  V3f normal{0};      ///< unit normal of the skin at the root, rest space; 0 without a skin
+  uint32_t face = 0;  ///< ptex face of the root, on a skin
+  V2f face_uv{0};     ///< parameters of the root in this face
 };
 
 /// Tells which inputs a field depends on, so that callers can avoid needless evaluations.
@@ -34,6 +37,8 @@ struct FieldDependence {
   bool surface = false;     ///< depends on the root: its rest position or its texture coordinates
   bool attributes = false;  ///< depends on FieldPoint::attributes
   bool rest = false;        ///< depends on FieldPoint::rest
+  bool normal = false;      ///< depends on FieldPoint::normal
+  bool face = false;        ///< depends on FieldPoint::face and face_uv
 };
 
 /// A number or colour of an operator or material that may vary over the skin and along strands: a constant, a

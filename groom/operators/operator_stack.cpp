@@ -135,9 +135,9 @@ StrandReach OperatorStack::reach(StrandReach before, size_t begin, size_t end) c
   return before;
 }
 
-float OperatorStack::coverage(const V3f& rest_position, const V3f& normal) const {
+float OperatorStack::coverage(const FieldPoint& root) const {
   float result = 1;
-  for (const auto& op : operators_) result *= op->coverage(rest_position, normal);
+  for (const auto& op : operators_) result *= op->coverage(root);
   return result;
 }
 

@@ -50,7 +50,7 @@ class OperatorStack {
   /// operators.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
   /// Returns the product of the coverage of all operators.
-  float coverage(const V3f& rest_position, const V3f& normal) const;
+  float coverage(const FieldPoint& root) const;
 
  private:
   struct Place {

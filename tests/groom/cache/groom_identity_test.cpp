@@ -54,7 +54,8 @@ TEST_F(GroomIdentityTest, EveryParameterOfEveryOperatorCounts) {
         for (const KeyInfo& required : schema->keys())
           if (required.options.required && required.name != key.name)
             keys += ", " + required.name + ": " + file;
-        return "- " + schema->name() + ": {" + keys + "}\n";
+        const bool mask = schema->name() == "operator mask";
+        return "- " + (mask ? "length" : schema->name()) + ": {" + keys + "}\n";
       };
       EXPECT_NE(hash_of(text(a)), hash_of(text(b))) << schema->name() << "." << key.name;
       EXPECT_EQ(hash_of(text(a)), hash_of(text(a)));
