@@ -98,8 +98,8 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
 }  // namespace
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
-                                           std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
-                                           const Job& job, const Groom* previous,
+                                           std::shared_ptr<const LimitSurface> rest,
+                                           const FieldSources& sources, const Job& job, const Groom* previous,
                                            const GrowthCache* growth_cache) {
   check_combination(name, params, rest != nullptr);
   const std::string owner = "groom '" + name + "'";
@@ -121,11 +121,12 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   // Two coats of one skin without explicit seeds must not grow from the same places.
   const uint64_t name_hash = pelage::content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
-  PrepareContext context{impl->source.rest.get(),           textures,      job, {},
+  PrepareContext context{impl->source.rest.get(),           sources,       job, {},
                          hash64(seed, random_use("groom")), params.points, {}};
   context.owner = owner;
   impl->operator_seed = context.seed;
-  const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
+  if (!impl->source.rest) context.textures.skin = nullptr;
+  const GroomIdentity identity(params, seed, stack, impl->source.rest.get(), context.textures.skin);
   ContentHasher hasher;
   hasher.add(identity.whole()).add(params.leaf_size()).add(growth_version::kPose);
   if (params.cache) hasher.add(params.cache->freeze.name).add(growth_version::kFrozen);

@@ -2,16 +2,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/value_readers.h"
 #include "image/field.h"
-#include "image/texture_library.h"
+#include "image/field_skin.h"
 
-// The kinds of fields (see image/field.h), and the blocks of a scene that describe fields.
+// The kinds of fields (see image/field.h).
 
 namespace pelage {
 
@@ -22,41 +20,31 @@ struct Field::Node {
   virtual FieldDependence dependence() const = 0;
   virtual std::pair<float, float> range() const = 0;
   virtual std::string print() const = 0;
-  virtual void collect_attributes(std::vector<std::string>&) const {}
-  virtual std::span<const Field> factors_of() const { return {}; }
-  virtual void collect_maps(std::vector<AssetPath>&) const {}
-  /// Returns a copy of the node with its maps loaded, or nullptr when the node contains no maps.
-  virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
+  /// Fields from which this one is computed. If there are any, a value depends on nothing but their values.
+  virtual std::span<const Field> inputs() const { return {}; }
+  /// Computes `count` values of one channel. `rows`: for each input, its values of this channel.
+  virtual void combine(std::span<const float* const> /*rows*/, size_t /*count*/, float* /*out*/) const {}
+  virtual void collect_attributes(std::vector<std::string>& names) const {
+    for (const Field& input : inputs()) input.node().collect_attributes(names);
+  }
+  /// `by_texture`: only the maps that are looked up by texture coordinates.
+  virtual void collect_maps(std::vector<AssetPath>& maps, bool by_texture) const {
+    for (const Field& input : inputs()) input.node().collect_maps(maps, by_texture);
+  }
+  /// Adds the files, other than maps, whose contents are part of the field.
+  virtual void collect_files(std::vector<std::filesystem::path>& files) const {
+    for (const Field& input : inputs()) input.node().collect_files(files);
+  }
+  /// Returns the node with everything that it reads from `sources`; nullptr when it reads nothing.
+  virtual std::shared_ptr<const Node> with_textures(const FieldSources&) const { return nullptr; }
   /// Returns the position where the scene names the attribute `name` in this field; nullptr when the field
   /// does not read this attribute.
   virtual const SourcePosition* place_of_attribute(std::string_view name) const {
-    for (const Field& factor : factors_of()) {
-      if (const SourcePosition* place = factor.node().place_of_attribute(name)) return place;
+    for (const Field& input : inputs()) {
+      if (const SourcePosition* place = input.node().place_of_attribute(name)) return place;
     }
     return nullptr;
   }
-};
-
-enum class MapChannel { kR, kG, kB, kA };
-template <>
-struct EnumNames<MapChannel> {
-  static constexpr const char* names[] = {"r", "g", "b", "a"};
-};
-
-template <>
-struct EnumNames<TextureWrap> {
-  static constexpr const char* names[] = {"clamp", "repeat"};
-};
-
-/// Keys of {map: f.png, channel: r, range: [a, b], space: auto, wrap: clamp}. Stored values 0 and 1 become a
-/// and b.
-struct MapForm {
-  AssetPath map;
-  std::optional<MapChannel> channel;
-  V2f range{0, 1};
-  ColorSpace space = ColorSpace::kAuto;
-  TextureWrap wrap = TextureWrap::kClamp;
-  static const Schema<MapForm>& schema();
 };
 
 enum class RampAxis { kStrand, kX, kY, kZ, kU, kV };
@@ -82,6 +70,9 @@ struct Ramp {
   static const Schema<Ramp>& schema();
 };
 
+/// Returns the value of a curve through knots, linear between them and constant outside.
+Rgb on_curve(std::span<const RampKnot> knots, float x);
+
 struct Noise {
   float frequency = 1;
   float amplitude = 1;
@@ -90,12 +81,11 @@ struct Noise {
   static const Schema<Noise>& schema();
 };
 
-Field map_field(MapForm form);
 Field ramp_field(Ramp ramp);
 Field noise_field(Noise noise);
 Field attribute_field(std::string name, SourcePosition named_at = {});
-Field product_field(std::vector<Field> factors);
-/// Returns a field with the values of `field`, each channel clamped to [low, high].
-Field clamped_field(Field field, float low, float high);
+
+/// Returns the number as a scene writes it.
+std::string print_number(float v);
 
 }  // namespace pelage

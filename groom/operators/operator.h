@@ -16,6 +16,7 @@
 #include "base/vector.h"
 #include "geom/strands.h"
 #include "image/field.h"
+#include "image/field_skin.h"
 
 namespace pelage {
 
@@ -84,7 +85,7 @@ struct OperatorTraits {
 /// Inputs of prepare(), which runs before strands are grown. Rest state only.
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
-  TextureLibrary& textures;
+  FieldSources textures;               ///< what fields are loaded from
   const Job& job;
   std::span<const std::unique_ptr<Operator>> preceding;  ///< the operators before this one, already prepared
   /// Seed of this operator; depends on the groom's seed and differs between operators of the same name.

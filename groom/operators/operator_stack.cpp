@@ -161,6 +161,9 @@ void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const Follic
     const V2f uv = topology.texture_coordinates(root.face, root.u, root.v);
     batch.u[s] = uv.x;
     batch.v[s] = uv.y;
+    batch.face[s] = root.face;
+    batch.face_u[s] = root.u;
+    batch.face_v[s] = root.v;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "groom/strands/strand_fields.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
 
@@ -43,12 +44,17 @@ const char* const kOperators[] = {"length: {value: 0.5, variation: 0.5",
 
 TEST_F(MaskedOperators, KeepEveryBitWhereTheMaskIsZeroAndSetItWhereItIsOne) {
   const auto before = grown("length: {}");
+  // Of a million, so that hardly any value is between 0 and 1.
+  const std::string mask = "{noise: {frequency: 20, amplitude: 1e6}}";
+  StrandRow values;
+  evaluate(scene_text::read<Field>(mask), *before, 0, values);
   for (const std::string op : kOperators) {
     const auto after = grown(op + "}");
-    const auto half = grown(op + ", mask: {ramp: {along: x, knots: [[0, 0], [0, 1]]}}}");
+    const auto half = grown(op + ", mask: " + mask + "}");
     size_t kept = 0;
     for (size_t s = 0; s < half->count; ++s) {
-      const bool on = half->rest.position[0][s] >= 0;
+      const bool on = values[s] >= 1;
+      if (!on && values[s] > 0) continue;
       kept += on ? 0 : 1;
       const StrandBatch& right = on ? *after : *before;
       for (size_t p = 0; p < half->points.size(); ++p) {

@@ -48,8 +48,8 @@ TEST(OperatorList, NamesTheNearestOperatorAndKey) {
   EXPECT_NE(message_of("- length: {value: -1}\n").find("scene.yaml:2:"), std::string::npos);
   EXPECT_NE(message_of("- guides: {}\n").find("file"), std::string::npos);
   EXPECT_EQ(message_of("- length: {value: 1, maks: 0.5}\n"),
-            "scene.yaml:2:23: unknown key 'maks' in length; did you mean 'mask'?");
-  EXPECT_NE(message_of("- length: {value: 1, mask: 2}\n").find("scene.yaml:2:29: "), std::string::npos);
+            "scene.yaml:2:24: unknown key 'maks' in length; did you mean 'mask'?");
+  EXPECT_NE(message_of("- length: {value: 1, mask: 2}\n").find("scene.yaml:2:30: "), std::string::npos);
 }
 
 TEST(OperatorList, EveryOperatorIsInTheManual) {
