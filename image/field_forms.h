@@ -20,6 +20,12 @@ struct FieldForm {
   const SchemaInfo& (*schema)();
 };
 
+/// Returns the table of a form.
+template <class Form>
+const SchemaInfo& form_table() {
+  return Form::schema();
+}
+
 std::span<const FieldForm> plain_field_forms();      ///< map, ramp, noise, attribute
 std::span<const FieldForm> operation_field_forms();  ///< computed from other fields
 std::span<const FieldForm> place_field_forms();      ///< shapes in rest space, height, slope

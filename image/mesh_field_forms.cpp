@@ -136,18 +136,13 @@ bool read_region(const Value& value, const KeyOptions&, Field&, Problems& proble
   return false;
 }
 
-template <class Form>
-const SchemaInfo& table_of() {
-  return Form::schema();
-}
-
-constexpr FieldForm kForms[] = {{"vertex_color", read_vertex_color, table_of<VertexColorForm>},
-                                {"group", read_group, table_of<GroupForm>},
-                                {"curvature", read_curvature, table_of<CurvatureForm>},
-                                {"region", read_region, table_of<RegionForm>}};
+constexpr FieldForm kMeshForms[] = {{"vertex_color", read_vertex_color, form_table<VertexColorForm>},
+                                    {"group", read_group, form_table<GroupForm>},
+                                    {"curvature", read_curvature, form_table<CurvatureForm>},
+                                    {"region", read_region, form_table<RegionForm>}};
 
 }  // namespace
 
-std::span<const FieldForm> mesh_field_forms() { return kForms; }
+std::span<const FieldForm> mesh_field_forms() { return kMeshForms; }
 
 }  // namespace pelage

@@ -323,24 +323,19 @@ bool read_remap(const Value& value, const KeyOptions& limits, Field& out, Proble
   return true;
 }
 
-template <class Form>
-const SchemaInfo& table_of() {
-  return Form::schema();
-}
-
-constexpr FieldForm kForms[] = {{"product", read_product, table_of<ProductForm>},
-                                {"add", read_sum, table_of<SumForm>},
-                                {"min", read_min, table_of<MinForm>},
-                                {"max", read_max, table_of<MaxForm>},
-                                {"mix", read_mix, table_of<MixForm>},
-                                {"invert", read_invert, table_of<InvertForm>},
-                                {"clamp", read_clamp, table_of<ClampForm>},
-                                {"threshold", read_threshold, table_of<ThresholdForm>},
-                                {"step", read_step, table_of<StepForm>},
-                                {"remap", read_remap, table_of<RemapForm>}};
+constexpr FieldForm kOperationForms[] = {{"product", read_product, form_table<ProductForm>},
+                                         {"add", read_sum, form_table<SumForm>},
+                                         {"min", read_min, form_table<MinForm>},
+                                         {"max", read_max, form_table<MaxForm>},
+                                         {"mix", read_mix, form_table<MixForm>},
+                                         {"invert", read_invert, form_table<InvertForm>},
+                                         {"clamp", read_clamp, form_table<ClampForm>},
+                                         {"threshold", read_threshold, form_table<ThresholdForm>},
+                                         {"step", read_step, form_table<StepForm>},
+                                         {"remap", read_remap, form_table<RemapForm>}};
 
 }  // namespace
 
-std::span<const FieldForm> operation_field_forms() { return kForms; }
+std::span<const FieldForm> operation_field_forms() { return kOperationForms; }
 
 }  // namespace pelage

@@ -232,19 +232,14 @@ bool read_distance(const Value& value, const KeyOptions&, Field& out, Problems& 
   return true;
 }
 
-template <class Form>
-const SchemaInfo& table_of() {
-  return Form::schema();
-}
-
-constexpr FieldForm kForms[] = {{"box", read_box, table_of<BoxForm>},
-                                {"sphere", read_sphere, table_of<SphereForm>},
-                                {"distance", read_distance, table_of<DistanceForm>},
-                                {"height", read_height, table_of<HeightForm>},
-                                {"slope", read_slope, table_of<SlopeForm>}};
+constexpr FieldForm kPlaceForms[] = {{"box", read_box, form_table<BoxForm>},
+                                     {"sphere", read_sphere, form_table<SphereForm>},
+                                     {"distance", read_distance, form_table<DistanceForm>},
+                                     {"height", read_height, form_table<HeightForm>},
+                                     {"slope", read_slope, form_table<SlopeForm>}};
 
 }  // namespace
 
-std::span<const FieldForm> place_field_forms() { return kForms; }
+std::span<const FieldForm> place_field_forms() { return kPlaceForms; }
 
 }  // namespace pelage

@@ -133,15 +133,14 @@ bool read_attribute_field(const Value& value, const KeyOptions&, Field& out, Pro
   return true;
 }
 
-constexpr FieldForm kForms[] = {
-    {"map", read_map, []() -> const SchemaInfo& { return MapForm::schema(); }},
-    {"ramp", read_ramp, []() -> const SchemaInfo& { return RampForm::schema(); }},
-    {"noise", read_noise, []() -> const SchemaInfo& { return NoiseForm::schema(); }},
-    {"attribute", read_attribute_field, []() -> const SchemaInfo& { return AttributeForm::schema(); }}};
+constexpr FieldForm kPlainForms[] = {{"map", read_map, form_table<MapForm>},
+                                     {"ramp", read_ramp, form_table<RampForm>},
+                                     {"noise", read_noise, form_table<NoiseForm>},
+                                     {"attribute", read_attribute_field, form_table<AttributeForm>}};
 
 }  // namespace
 
-std::span<const FieldForm> plain_field_forms() { return kForms; }
+std::span<const FieldForm> plain_field_forms() { return kPlainForms; }
 
 const Schema<MapForm>& MapForm::schema() {
   static const Schema<MapForm> table = [] {
