@@ -71,13 +71,15 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
     throw Error(ErrorKind::kInput, problem->position, problem->message);
 }
 
-/// Grown strands have a width even if no operator sets one.
+/// Grown strands have a width even if no operator sets one everywhere.
 OperatorList with_width(const GroomParams& params) {
   OperatorList list = params.operators;
-  const bool has_width =
-      std::any_of(list.items.begin(), list.items.end(),
-                  [](const OperatorList::Item& item) { return item.name == Width::kName; });
-  if (!has_width && params.strands_file.empty()) list.items.push_back(default_operator(Width::kName));
+  std::vector<OperatorList::Item>& items = list.items;
+  const auto sets_width = [](const OperatorList::Item& item) { return item.name == Width::kName; };
+  const bool everywhere = std::any_of(items.begin(), items.end(),
+                                      [&](const auto& item) { return sets_width(item) && !item.masked; });
+  if (!everywhere && params.strands_file.empty())
+    items.insert(std::find_if(items.begin(), items.end(), sets_width), default_operator(Width::kName));
   return list;
 }
 

@@ -279,6 +279,11 @@ std::string skin_of_material(const SceneDescription& scene, const std::string& m
       }
     }
   }
+  for (const auto& archive : scene.archives.items) {
+    for (const auto& surface : archive.value.materials.items) {
+      if (surface.value.name == material) skins.insert("");
+    }
+  }
   return skins.size() == 1 ? *skins.begin() : "";
 }
 

@@ -78,6 +78,7 @@ bool read_item(const Value& value, OperatorList::Item& item, Problems& problems)
     if (!MaskParams::schema().read(block, params, problems)) return false;
     if (item.prototype)
       item.prototype = std::make_shared<MaskedOperator>(item.prototype, kind->clone, std::move(params.mask));
+    item.masked = true;
     item.clone = [](const Operator& prototype) -> std::unique_ptr<Operator> {
       return std::make_unique<MaskedOperator>(static_cast<const MaskedOperator&>(prototype));
     };

@@ -45,8 +45,9 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
   }
   throw Error(ErrorKind::kInput, position,
               "a number of '" + name +
-                  "' has no upper limit, because it reads an attribute without one; only `random` and "
-                  "`clump` have limits");
+                  "' has no upper limit, because it reads an attribute or a distance without one; of "
+                  "attributes, only `random` and "
+                  "`clump` have limits; put it into the field `clamp`");
 }
 
 /// The frame at a point that is already evaluated; evaluates the surface again only where it is ill-defined.

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "groom/groom.h"
 #include "groom/strands/strand_fields.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
@@ -96,6 +97,16 @@ TEST_F(MaskedOperators, StayWithinTheirBounds) {
       check_bounds(*masked(op + ", mask: " + mask + "}"), before, 0);
     }
   }
+}
+
+TEST_F(MaskedOperators, LeaveTheDefaultWidthOutsideTheMask) {
+  GroomParams params;
+  params.strands = 50;
+  params.operators = scene_text::read<OperatorList>("- width: {root: 0.5, tip: 0.5, mask: 0}\n");
+  const auto groom = Groom::create("coat", params, rest_, textures_, job_);
+  const Strands strands = groom->grow(0, {{rest_.get(), 1}, {}, 1, {}});
+  for (size_t s = 0; s < strands.strand_count(); ++s) EXPECT_GT(strands.radius(strands.first_point(s)), 0);
+  EXPECT_LT(strands.radius(0), 0.2f);
 }
 
 TEST_F(MaskedOperators, LimitWhereACoatGrows) {
