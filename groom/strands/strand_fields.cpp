@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/hash.h"
-#include "image/field_nodes.h"
+#include "image/field_node.h"
 
 namespace pelage {
 namespace {

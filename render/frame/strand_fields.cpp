@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "geom/rest_position.h"
-#include "image/field_nodes.h"
+#include "image/field_node.h"
 
 namespace pelage {
 namespace {
