@@ -234,8 +234,13 @@ TEST(Field, ChecksKnots) {
 TEST(Field, ManualListsItsBlocks) {
   std::vector<std::string> names;
   for (const SchemaInfo* block : ValueReader<Field>::blocks()) names.push_back(block->name());
-  EXPECT_EQ(names, (std::vector<std::string>{"map field", "ramp field", "noise field", "attribute field",
-                                             "product field"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "map field",    "ramp field",      "noise field",  "attribute field", "product field",
+                "add field",    "min field",       "max field",    "mix field",       "invert field",
+                "clamp field",  "threshold field", "step field",   "remap field",     "box field",
+                "sphere field", "distance field",  "height field", "slope field",     "vertex_color field",
+                "group field",  "curvature field", "region field"}));
 }
 
 }  // namespace
