@@ -116,7 +116,6 @@ const Schema<MaxForm>& MaxForm::schema() {
     strands: 20000
     operators:
       - length: {value: {max: [{ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}, 0.5]}})");
-    s.set_picture("Left: a ramp along x. Right: the same ramp, but at least 0.5.");
     s.key("max", &MaxForm::max, {.help = "Fields to compare", .required = true});
     return s;
   }();
@@ -132,7 +131,6 @@ const Schema<MixForm>& MixForm::schema() {
     strands: 20000
     operators:
       - color: {value: {mix: [[0.05, 0.03, 0.02], [0.8, 0.5, 0.25]], by: {threshold: {noise: {frequency: 1.5}}, at: 0, width: 0.3}}})");
-    s.set_picture("Left: one colour. Right: two colours mixed by a threshold of noise.");
     s.key("mix", &MixForm::mix, {.help = "Two fields", .required = true});
     s.key(
         "by", &MixForm::by,
@@ -151,7 +149,6 @@ const Schema<InvertForm>& InvertForm::schema() {
     strands: 20000
     operators:
       - length: {value: {invert: {ramp: {along: x, knots: [[-1.5, 0], [1.5, 1]]}}}})");
-    s.set_picture("Left: length from a ramp along x. Right: the inverse of this ramp.");
     s.key("invert", &InvertForm::invert, {.help = "Field to invert", .required = true});
     return s;
   }();
@@ -167,7 +164,6 @@ const Schema<ClampForm>& ClampForm::schema() {
     strands: 20000
     operators:
       - length: {value: {clamp: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}, low: 0.4, high: 0.7}})");
-    s.set_picture("Left: a ramp along x. Right: the same ramp, limited to 0.4 .. 0.7.");
     s.key("clamp", &ClampForm::clamp, {.help = "Field to limit", .required = true});
     s.key("low", &ClampForm::low, {.help = "Lowest value"});
     s.key("high", &ClampForm::high, {.help = "Highest value"});
@@ -185,7 +181,6 @@ const Schema<ThresholdForm>& ThresholdForm::schema() {
     strands: 20000
     operators:
       - length: {value: {threshold: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}, at: 0.5, width: 0.1}})");
-    s.set_picture("Left: length from a ramp along x. Right: from a threshold of the ramp.");
     s.key("threshold", &ThresholdForm::threshold, {.help = "Field to compare", .required = true});
     s.key("at", &ThresholdForm::at, {.help = "Value from which the result is 1"});
     s.key("width", &ThresholdForm::width,
@@ -204,7 +199,6 @@ const Schema<StepForm>& StepForm::schema() {
     strands: 20000
     operators:
       - length: {value: {step: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}, size: 0.25}})");
-    s.set_picture("Left: a ramp along x. Right: the same ramp in steps of 0.25.");
     s.key("step", &StepForm::step, {.help = "Field to round", .required = true});
     s.key("size", &StepForm::size, {.help = "Height of a step", .min = 0, .above_min = true});
     return s;
@@ -221,7 +215,6 @@ const Schema<RemapForm>& RemapForm::schema() {
     strands: 20000
     operators:
       - length: {value: {remap: {ramp: {along: x, knots: [[-1.5, 0], [1.5, 1]]}}, knots: [[0, 0.2], [0.5, 1], [1, 0.2]]}})");
-    s.set_picture("Left: a ramp along x. Right: the ramp through a curve that rises and falls.");
     s.key("remap", &RemapForm::remap, {.help = "Field whose values are looked up", .required = true});
     s.key("knots", &RemapForm::knots,
           {.help = "Knots [value of the field, result] by increasing value, linear in between and constant "

@@ -50,7 +50,6 @@ const Schema<BoxForm>& BoxForm::schema() {
     strands: 20000
     operators:
       - length: {value: {box: [1.6, 1, 1.6], soft: 0.4}})");
-    s.set_picture("Left: constant length. Right: length from a box with a soft edge.");
     s.key("box", &BoxForm::box,
           {.unit = "scene units", .help = "Extents along x, y and z", .required = true});
     s.key("center", &BoxForm::center,
@@ -100,8 +99,6 @@ const Schema<HeightForm>& HeightForm::schema() {
     strands: 20000
     operators:
       - length: {value: {height: z}})");
-    s.set_picture(
-        "Left: constant length. Right: length that grows along z, from one end of the skin to the other.");
     s.key("height", &HeightForm::height, {.help = "Direction in the skin's rest space", .required = true});
     return s;
   }();
@@ -120,7 +117,6 @@ const Schema<SlopeForm>& SlopeForm::schema() {
     strands: 20000
     operators:
       - length: {value: {remap: {slope: y}, knots: [[0.7, 0.2], [1, 1]]}})");
-    s.set_picture("Left: constant length. Right: strands are longest where the skin faces up.");
     s.key("slope", &SlopeForm::slope, {.help = "Direction in the skin's rest space", .required = true});
     return s;
   }();
@@ -138,7 +134,6 @@ const Schema<DistanceForm>& DistanceForm::schema() {
     strands: 20000
     operators:
       - length: {value: {remap: {distance: {line: [[-1.5, 0, -1], [1.5, 0, 1]]}}, knots: [[0, 0.1], [0.8, 1]]}})");
-    s.set_picture("Left: constant length. Right: length that grows with the distance from a line.");
     s.key("distance", &DistanceForm::distance,
           {.help = "What the distance is measured from", .required = true});
     return s;

@@ -62,13 +62,9 @@ PICTURES = {
                         "first": LENGTH, "strands": 2000, "color": "{attribute: color}"},
     "product field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
     "length": {"before": "- length: {value: 0.8}"},
-    **{f"{kind} field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE}
-       for kind in ("add", "min", "max", "clamp", "threshold", "step")},
-    **{f"{kind} field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0], [1.5, 1]]}}}", **ABOVE}
-       for kind in ("invert", "remap")},
-    **{f"{kind} field": {"before": LENGTH, **ABOVE} for kind in ("box", "sphere", "distance", "height", "slope")},
-    "mix field": {"before": LENGTH + "\n- color: {value: [0.8, 0.5, 0.25]}", "first": LENGTH,
-                  "color": "{attribute: color}"},
+    "add field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
+    "min field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
+    "sphere field": {"before": LENGTH, **ABOVE},
     "region field": {"before": "- length: {value: 0.4}", "first": "- length: {value: 0.4}",
                      "regions": "regions: {spots: {threshold: {noise: {frequency: 1.5}}, at: 0}}\n", **ABOVE},
     "operator mask": {"before": LENGTH + "\n- comb: {direction: [1, 0, 0], lift: 0.1}", "first": LENGTH},

@@ -11,8 +11,7 @@ MANUAL = ROOT / "docs" / "MANUAL.md"
 OPERATORS = ("length", "comb", "bend", "clump", "curl", "frizz", "noise", "guides", "push_out", "width", "color",
              "operator mask")
 FIELDS = tuple(f"{kind} field" for kind in (
-    "map", "ramp", "noise", "attribute", "product", "add", "min", "max", "mix", "invert", "clamp", "threshold", "step",
-    "remap", "box", "sphere", "distance", "height", "slope", "region"))
+    "map", "ramp", "noise", "attribute", "product", "add", "min", "sphere", "region"))
 
 
 def load_pictures():
