@@ -58,8 +58,8 @@ class ObjReader {
   bool read_corner(std::string_view token);
   bool resolve(int64_t index, size_t count, const char* what, uint32_t& result);
   void check_face(size_t first);
-  void read_group();
-  void read_name(ControlMesh::FaceNames& all, int& current);
+  void read_group(std::string name);
+  void read_name(const std::string& name, ControlMesh::FaceNames& all, int& current);
   void read_tag();
   std::vector<int64_t> read_tag_integers(int64_t count);
   std::vector<float> read_tag_sharpness(int64_t count, size_t wanted);
@@ -87,10 +87,11 @@ ControlMesh ObjReader::read() {
     } else if (keyword == "f") {
       read_face();
     } else if (keyword == "g" || keyword == "o") {
-      if (keyword == "o") read_name(mesh_.objects, current_object_);
-      read_group();
+      const std::string name(scanner_.rest());
+      if (keyword == "o") read_name(name, mesh_.objects, current_object_);
+      read_group(name);
     } else if (keyword == "usemtl") {
-      read_name(mesh_.materials, current_material_);
+      read_name(std::string(scanner_.rest()), mesh_.materials, current_material_);
     } else if (keyword == "t") {
       read_tag();
     }
@@ -197,8 +198,7 @@ void ObjReader::read_face() {
   face_lines_.push_back(line);
 }
 
-void ObjReader::read_group() {
-  std::string name(scanner_.rest());
+void ObjReader::read_group(std::string name) {
   if (name.empty()) name = "default";
   const auto [entry, is_new] = group_numbers_.emplace(name, static_cast<uint16_t>(mesh_.groups.size()));
   if (is_new) {
@@ -212,10 +212,9 @@ void ObjReader::read_group() {
   current_group_ = entry->second;
 }
 
-void ObjReader::read_name(ControlMesh::FaceNames& all, int& current) {
+void ObjReader::read_name(const std::string& name, ControlMesh::FaceNames& all, int& current) {
   // Faces before the first name have the name "".
   if (all.names.empty()) all.names.emplace_back();
-  const std::string name(scanner_.rest());
   const auto known = std::find(all.names.begin(), all.names.end(), name);
   current = static_cast<int>(known - all.names.begin());
   if (known != all.names.end()) return;
