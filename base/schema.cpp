@@ -10,8 +10,10 @@
 namespace pelage {
 namespace {
 
-/// Adds a problem, unless the key is a removed one with its harmless value.
-void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems) {
+/// Adds a problem, unless the key is a removed one with its harmless value. `skip`: a key that another table
+/// reads, or "".
+void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, std::string_view skip,
+                        Problems& problems) {
   if (const KeyInfo* renamed = schema.find_renamed(entry.key)) {
     problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
     return;
@@ -23,7 +25,8 @@ void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Pro
       problems.add(entry.key_position, quote(entry.key) + " was removed: " + std::string(removed.advice));
     return;
   }
-  const std::vector<std::string> names = schema.key_names();
+  std::vector<std::string> names = schema.key_names();
+  if (!skip.empty()) names.emplace_back(skip);
   problems.add(entry.key_position,
                "unknown key " + quote(entry.key) + " in " + schema.name() + suggest(entry.key, names));
 }
@@ -93,7 +96,7 @@ bool SchemaInfo::read_members(const Value& value, void* params, Problems& proble
     if (!skip.empty() && entry.key == skip) continue;
     const KeyInfo* key = find(entry.key);
     if (!key) {
-      report_unknown_key(entry, *this, problems);
+      report_unknown_key(entry, *this, skip, problems);
       continue;
     }
     const size_t i = key - keys_.data();

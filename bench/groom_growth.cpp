@@ -18,7 +18,7 @@
 #include "groom/cache/cache_report.h"
 #include "groom/groom.h"
 #include "groom/operators/color.h"
-#include "image/field_nodes.h"
+#include "image/field_operations.h"
 #include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"

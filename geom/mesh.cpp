@@ -50,9 +50,12 @@ std::vector<bool> repeated_faces(const ControlMesh& mesh, std::vector<bool>& hol
 
 size_t merge_equal_faces(ControlMesh& mesh) {
   const size_t corners = std::accumulate(mesh.face_sizes.begin(), mesh.face_sizes.end(), size_t(0));
-  const bool has_uv = !mesh.face_uv.empty(), has_groups = !mesh.face_groups.empty();
-  if (corners != mesh.face_vertices.size() || (has_uv && mesh.face_uv.size() != corners) ||
-      (has_groups && mesh.face_groups.size() != mesh.face_count()))
+  const bool has_uv = !mesh.face_uv.empty();
+  std::vector<uint16_t>* const per_face[] = {&mesh.face_groups, &mesh.objects.faces, &mesh.materials.faces};
+  const bool names_fit = std::all_of(std::begin(per_face), std::end(per_face), [&](const auto* names) {
+    return names->empty() || names->size() == mesh.face_count();
+  });
+  if (corners != mesh.face_vertices.size() || (has_uv && mesh.face_uv.size() != corners) || !names_fit)
     return 0;
   std::vector<bool> hole(mesh.face_count());
   for (const uint32_t face : mesh.holes) {
@@ -70,7 +73,9 @@ size_t merge_equal_faces(ControlMesh& mesh) {
       };
       move(mesh.face_vertices);
       if (has_uv) move(mesh.face_uv);
-      if (has_groups) mesh.face_groups[kept] = mesh.face_groups[face];
+      for (auto* names : per_face) {
+        if (!names->empty()) (*names)[kept] = (*names)[face];
+      }
       if (hole[face]) mesh.holes.push_back(static_cast<uint32_t>(kept));
       mesh.face_sizes[kept++] = size;
       kept_corners += size;
@@ -80,7 +85,9 @@ size_t merge_equal_faces(ControlMesh& mesh) {
   mesh.face_sizes.resize(kept);
   mesh.face_vertices.resize(kept_corners);
   if (has_uv) mesh.face_uv.resize(kept_corners);
-  if (has_groups) mesh.face_groups.resize(kept);
+  for (auto* names : per_face) {
+    if (!names->empty()) names->resize(kept);
+  }
   return repeated.size() - kept;
 }
 
@@ -111,7 +118,9 @@ int distinct_corners(std::span<const uint32_t> face) {
 size_t ControlMesh::bytes() const {
   return vector_bytes(positions) + vector_bytes(face_sizes) + vector_bytes(face_vertices) + vector_bytes(uv) +
          vector_bytes(face_uv) + vector_bytes(creases) + vector_bytes(corners) + vector_bytes(holes) +
-         vector_bytes(face_groups) + vector_bytes(groups);
+         vector_bytes(face_groups) + vector_bytes(groups) + vector_bytes(objects.faces) +
+         vector_bytes(objects.names) + vector_bytes(materials.faces) + vector_bytes(materials.names) +
+         vector_bytes(colors);
 }
 
 }  // namespace pelage

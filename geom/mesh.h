@@ -33,6 +33,13 @@ struct ControlMesh {
   std::vector<uint32_t> holes;        ///< faces without a surface
   std::vector<uint16_t> face_groups;  ///< index into `groups` of each face
   std::vector<std::string> groups;    ///< names
+  /// Objects or materials of an OBJ file; empty when the file has none.
+  struct FaceNames {
+    std::vector<uint16_t> faces;  ///< index into `names` of each face
+    std::vector<std::string> names;
+  };
+  FaceNames objects, materials;
+  std::vector<Rgb> colors;       ///< linear colour of each vertex; empty when the file has none
   bool chaikin_creases = false;  ///< crease sharpness decays by Chaikin's rule ("t creasemethod chaikin")
   /// Smoother weights for triangles in Catmull-Clark subdivision ("t smoothtriangles smooth").
   bool smooth_triangles = false;

@@ -71,13 +71,15 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
     throw Error(ErrorKind::kInput, problem->position, problem->message);
 }
 
-/// Grown strands have a width even if no operator sets one.
+/// Grown strands have a width even if no operator sets one everywhere.
 OperatorList with_width(const GroomParams& params) {
   OperatorList list = params.operators;
-  const bool has_width =
-      std::any_of(list.items.begin(), list.items.end(),
-                  [](const OperatorList::Item& item) { return item.name == Width::kName; });
-  if (!has_width && params.strands_file.empty()) list.items.push_back(default_operator(Width::kName));
+  std::vector<OperatorList::Item>& items = list.items;
+  const auto sets_width = [](const OperatorList::Item& item) { return item.name == Width::kName; };
+  const bool everywhere = std::any_of(items.begin(), items.end(),
+                                      [&](const auto& item) { return sets_width(item) && !item.masked; });
+  if (!everywhere && params.strands_file.empty())
+    items.insert(std::find_if(items.begin(), items.end(), sets_width), default_operator(Width::kName));
   return list;
 }
 
@@ -98,8 +100,8 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
 }  // namespace
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
-                                           std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
-                                           const Job& job, const Groom* previous,
+                                           std::shared_ptr<const LimitSurface> rest,
+                                           const FieldSources& sources, const Job& job, const Groom* previous,
                                            const GrowthCache* growth_cache) {
   check_combination(name, params, rest != nullptr);
   const std::string owner = "groom '" + name + "'";
@@ -121,11 +123,12 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   // Two coats of one skin without explicit seeds must not grow from the same places.
   const uint64_t name_hash = pelage::content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
-  PrepareContext context{impl->source.rest.get(),           textures,      job, {},
+  PrepareContext context{impl->source.rest.get(),           sources,       job, {},
                          hash64(seed, random_use("groom")), params.points, {}};
   context.owner = owner;
   impl->operator_seed = context.seed;
-  const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
+  if (!impl->source.rest) context.textures.skin = nullptr;
+  const GroomIdentity identity(params, seed, stack, impl->source.rest.get(), context.textures.skin);
   ContentHasher hasher;
   hasher.add(identity.whole()).add(params.leaf_size()).add(growth_version::kPose);
   if (params.cache) hasher.add(params.cache->freeze.name).add(growth_version::kFrozen);
@@ -164,7 +167,7 @@ FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const Prepa
   options.per_area = params.strands ? 0.0 : 1.0;
   if (params.density) options.density = params.density->with_textures(context.textures);
   if (stack->traits().restricts_coverage) {
-    options.coverage = [this](const V3f& at, const V3f& normal) { return stack->coverage(at, normal); };
+    options.coverage = [this](const FieldPoint& root) { return stack->coverage(root); };
   }
   options.seed = hash64(seed, random_use("follicles"));
   options.leaf_strands = params.leaf_size();

@@ -19,7 +19,7 @@
 namespace pelage {
 
 class GrowthCache;
-class TextureLibrary;
+struct FieldSources;
 struct GroomCacheReport;
 struct Job;
 
@@ -68,16 +68,16 @@ struct GrowthStep {
 class Groom {
  public:
   /// Places follicles and prepares the operators, for example clump centres and guides. `name` is for
-  /// messages. `rest` is null for a groom without a skin. Throws Error: kInput for missing maps, missing
-  /// guide files and invalid combinations; kMemory before making anything for which the ledger has no room;
-  /// kStopped when the job is stopped. A problem with the cache does not stop growing; it is reported as a
-  /// warning to the job's progress.
+  /// messages. `rest` is null for a groom without a skin. `sources`: what fields are loaded from. Throws
+  /// Error: kInput for missing maps, missing guide files and invalid combinations; kMemory before making
+  /// anything for which the ledger has no room; kStopped when the job is stopped. A problem with the cache
+  /// does not stop growing; it is reported as a warning to the job's progress.
   ///
   /// `previous`, if not null: a groom whose follicles are shared if they are the same. `growth_cache`, if not
   /// null: where follicles are kept between runs. Neither is used with a cache in `params`.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
-                                             TextureLibrary& textures, const Job& job,
+                                             const FieldSources& sources, const Job& job,
                                              const Groom* previous = nullptr,
                                              const GrowthCache* growth_cache = nullptr);
   ~Groom();

@@ -2,6 +2,7 @@
 #include "image/field.h"
 
 #include "image/field_nodes.h"
+#include "image/udim.h"
 
 namespace pelage {
 namespace {
@@ -42,16 +43,26 @@ std::vector<std::string> Field::attribute_names() const {
   return names;
 }
 
-std::span<const Field> Field::factors() const { return node_->factors_of(); }
+std::span<const Field> Field::inputs() const { return node_->inputs(); }
 
-std::vector<AssetPath> Field::maps() const {
+std::vector<AssetPath> Field::maps(bool by_texture) const {
   std::vector<AssetPath> maps;
-  node_->collect_maps(maps);
+  node_->collect_maps(maps, by_texture);
   return maps;
 }
 
-Field Field::with_textures(TextureLibrary& textures) const {
-  std::shared_ptr<const Node> loaded = node_->with_textures(textures);
+std::vector<std::filesystem::path> Field::files() const {
+  std::vector<std::filesystem::path> files;
+  for (const AssetPath& map : maps()) {
+    const std::vector<std::filesystem::path> tiles = map_files(map.path);
+    files.insert(files.end(), tiles.begin(), tiles.end());
+  }
+  node_->collect_files(files);
+  return files;
+}
+
+Field Field::with_textures(const FieldSources& sources) const {
+  std::shared_ptr<const Node> loaded = node_->with_textures(sources);
   return loaded ? Field(std::move(loaded)) : *this;
 }
 

@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-class TextureLibrary;
+struct FieldSources;
 
 /// A named value of a strand or of a point of a strand, which a field may read. A value with a single number
 /// has this number in all three channels.
@@ -26,6 +26,9 @@ struct FieldPoint {
   float u = 0, v = 0;  ///< texture coordinates of the root
   float along = 0;     ///< position along the strand: 0 at the root, 1 at the tip
   std::span<const FieldAttribute> attributes;
+  V3f normal{0};      ///< unit normal of the skin at the root, rest space; 0 without a skin
+  uint32_t face = 0;  ///< ptex face of the root, on a skin
+  V2f face_uv{0};     ///< parameters of the root in this face
 };
 
 /// Tells which inputs a field depends on, so that callers can avoid needless evaluations.
@@ -34,19 +37,19 @@ struct FieldDependence {
   bool surface = false;     ///< depends on the root: its rest position or its texture coordinates
   bool attributes = false;  ///< depends on FieldPoint::attributes
   bool rest = false;        ///< depends on FieldPoint::rest
+  bool normal = false;      ///< depends on FieldPoint::normal
+  bool face = false;        ///< depends on FieldPoint::face and face_uv
 };
 
+inline FieldDependence operator|(const FieldDependence& a, const FieldDependence& b) {
+  return {a.along || b.along, a.surface || b.surface, a.attributes || b.attributes,
+          a.rest || b.rest,   a.normal || b.normal,   a.face || b.face};
+}
+
 /// A number or colour of an operator or material that may vary over the skin and along strands: a constant, a
-/// map, a ramp, noise, an attribute, or a product of fields. docs/MANUAL.md describes the keys. A Field is
-/// immutable and cheap to copy.
-///
-///   0.5 | [r, g, b]
-///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb, wrap: clamp|repeat}  # without channel:
-///                                                                                         # colour
-///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  # linear; values may be colours
-///   {noise: {frequency, amplitude, offset, seed}}    # offset + amplitude * noise(rest * frequency)
-///   {attribute: name}                                # 0 where strands do not have it
-///   {product: [field, field, ...]}
+/// map, a ramp, noise, an attribute, a shape in rest space, something of the skin's mesh, or a function of
+/// other fields. docs/MANUAL.md describes the blocks, which image/field_forms.h lists. A Field is immutable
+/// and cheap to copy.
 ///
 /// A map with the key `channel` is data: `space: auto` uses its values as stored. A map without `channel` is
 /// a colour: `space: auto` decodes integer formats from sRGB and uses floating-point values as stored.
@@ -72,17 +75,23 @@ class Field {
   /// Returns the names of the attributes that the field reads, without repetitions.
   std::vector<std::string> attribute_names() const;
 
-  /// Returns the factors of a product, in order. Empty for other fields.
-  std::span<const Field> factors() const;
-  /// Returns the files of all maps, each with the position in the scene that names the file.
-  std::vector<AssetPath> maps() const;
+  /// Returns the fields from which this one is computed. Empty for fields that are not computed from others.
+  std::span<const Field> inputs() const;
+  /// Returns the files of all maps, each with the position in the scene that names the file. The name of a
+  /// map with UDIM tiles has a placeholder. `by_texture`: only maps that are looked up by texture
+  /// coordinates.
+  std::vector<AssetPath> maps(bool by_texture = false) const;
+  /// Returns all files whose contents are part of the field.
+  std::vector<std::filesystem::path> files() const;
 
-  /// Returns this field with its maps loaded. Passes on the errors of TextureLibrary::load(). Throws Error
-  /// (kInput) when an image has no channel of the given name. Both have the position in the scene that names
-  /// the map.
-  Field with_textures(TextureLibrary& textures) const;
+  /// Returns this field with its maps loaded, and with what it reads from the skin. Passes on the errors of
+  /// TextureLibrary::load(). Throws Error (kInput) when an image has no channel of the given name, and when
+  /// the field needs a skin, or something of the skin, that does not exist. These errors have the position in
+  /// the scene.
+  Field with_textures(const FieldSources& sources) const;
 
   const Node& node() const { return *node_; }
+  const std::shared_ptr<const Node>& shared_node() const { return node_; }
 
  private:
   std::shared_ptr<const Node> node_;
@@ -97,10 +106,10 @@ struct ValueReader<Field> {
   static std::string type_name() { return "field"; }
   static std::string print(const Field& field);
   static void add_files(const Field& field, std::vector<std::filesystem::path>& files) {
-    for (const AssetPath& map : field.maps()) files.push_back(map.path);
+    for (std::filesystem::path& file : field.files()) files.push_back(std::move(file));
   }
   static void add_maps(const Field& field, std::vector<ParameterText::Map>& maps) {
-    for (const AssetPath& map : field.maps()) maps.push_back({map.path, map.position});
+    for (const AssetPath& map : field.maps(true)) maps.push_back({map.path, map.position});
   }
   static std::vector<const SchemaInfo*> blocks();
   static void visit_blocks(Value& value, const BlockVisitor& visit);

@@ -28,7 +28,7 @@ SCENE = """pelage: 1
 camera: {{position: {position}, look_at: {look_at}, fov: 29}}
 image: {{width: {size}, height: {size}}}
 skins: {{patch: {{mesh: patch.obj}}}}
-grooms:
+{regions}grooms:
   coat:
     skin: patch
     strands: {strands}
@@ -62,6 +62,12 @@ PICTURES = {
                         "first": LENGTH, "strands": 2000, "color": "{attribute: color}"},
     "product field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
     "length": {"before": "- length: {value: 0.8}"},
+    "add field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
+    "min field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
+    "sphere field": {"before": LENGTH, **ABOVE},
+    "region field": {"before": "- length: {value: 0.4}", "first": "- length: {value: 0.4}",
+                     "regions": "regions: {spots: {threshold: {noise: {frequency: 1.5}}, at: 0}}\n", **ABOVE},
+    "operator mask": {"before": LENGTH + "\n- comb: {direction: [1, 0, 0], lift: 0.1}", "first": LENGTH},
     "comb": {"before": LENGTH, "first": LENGTH},
     "bend": {"before": LENGTH, "first": LENGTH},
     "clump": {"before": LENGTH, "first": LENGTH, "strands": 2000},
@@ -87,6 +93,7 @@ def scene(operators, settings):
     if "width:" not in operators:
         operators += "\n" + WIDTH
     return SCENE.format(size=SIZE, strands=settings.get("strands", 600), color=settings.get("color", FUR),
+                        regions=settings.get("regions", ""),
                         position=settings.get("position", "[0, 2.1, 5.6]"),
                         look_at=settings.get("look_at", "[0, 0.55, 0]"),
                         operators="\n".join("      " + line for line in operators.splitlines()))

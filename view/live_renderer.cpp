@@ -220,7 +220,7 @@ void LiveRenderer::load(const SceneEdit& edit, Redo redo, const Job& job) {
     update_assets(edit.scene, job, loaded_->assets);
     progress_.end();
   } else {
-    loaded_->assets.materials = load_materials(edit.scene, loaded_->assets.textures, job);
+    loaded_->assets.materials = load_materials(edit.scene, loaded_->assets, job);
   }
   progress_.begin("pose", 1);
   const double frame = edit.scene.frames.frames.front();

@@ -2,6 +2,7 @@
 #include "world/assets.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include "base/hash.h"
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "base/nearest_name.h"
 #include "geom/io/obj_file.h"
+#include "groom/strands/skin_fields.h"
 #include "procedurals/crowd/crowd.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
@@ -178,10 +181,10 @@ bool only_holes(const SurfaceTopology& topology) {
 std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,
-                                        TextureLibrary& textures, const Job& job, const Groom* previous,
+                                        const FieldSources& sources, const Job& job, const Groom* previous,
                                         const GrowthCache* growth_cache) {
   try {
-    auto groom = Groom::create(name, params, rest, textures, job, previous, growth_cache);
+    auto groom = Groom::create(name, params, rest, sources, job, previous, growth_cache);
     if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
       job.progress.warn(fmt::format("{}: groom '{}' grows nothing, because all faces of skin '{}' are holes",
                                     to_string(position), name, params.skin.name));
@@ -255,15 +258,45 @@ void update_skins(const SceneDescription& scene, const std::map<std::string, Con
   }
 }
 
+/// What fields read from a skin; nothing if there is no such skin.
+std::optional<SkinFields> skin_fields(const Assets& assets, const std::string& name, const Job& job) {
+  const auto skin = assets.skins.find(name);
+  if (skin == assets.skins.end()) return {};
+  return std::optional<SkinFields>(std::in_place, "skin " + quote(name), *skin->second.rest,
+                                   skin->second.cage, job);
+}
+
+/// The skin on which a material is used, itself or for strands; "" if there is none or more than one.
+std::string skin_of_material(const SceneDescription& scene, const std::string& material) {
+  std::set<std::string> skins;
+  for (const auto& character : scene.characters.items) {
+    for (const PartParams& part : character.value.parts) {
+      if (part.material.name == material) skins.insert(part.skin.name);
+      for (const auto& groom : part.grooms.items) {
+        if (groom.value.name != material) continue;
+        const auto* grown = scene.grooms.find(groom.name);
+        skins.insert(grown ? grown->value.skin.name : "");
+      }
+    }
+  }
+  for (const auto& archive : scene.archives.items) {
+    for (const auto& surface : archive.value.materials.items) {
+      if (surface.value.name == material) skins.insert("");
+    }
+  }
+  return skins.size() == 1 ? *skins.begin() : "";
+}
+
 void update_grooms(const SceneDescription& scene, const std::map<std::string, ContentHash>& keys,
                    const Job& job, Assets& assets) {
   for (const auto& [name, position, params] : scene.grooms.items) {
     if (assets.groom_keys.contains(name)) continue;
     const auto skin = assets.skins.find(params.skin.name);
     const auto rest = skin == assets.skins.end() ? nullptr : skin->second.rest;
+    const std::optional<SkinFields> fields = skin_fields(assets, params.skin.name, job);
     std::shared_ptr<const Groom>& groom = assets.grooms[name];
-    groom =
-        make_groom(name, position, params, rest, assets.textures, job, groom.get(), scene.growth_cache.get());
+    groom = make_groom(name, position, params, rest, {assets.textures, fields ? &*fields : nullptr}, job,
+                       groom.get(), scene.growth_cache.get());
     assets.groom_keys[name] = keys.at("grooms." + name);
   }
 }
@@ -302,7 +335,7 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
                                 static_cast<int64_t>(crowd.capacity() * sizeof(CrowdMember)));
   }
   update_grooms(scene, keys, job, assets);
-  assets.materials = load_materials(scene, assets.textures, job);
+  assets.materials = load_materials(scene, assets, job);
   if (const auto coarse = coarse_position(scene, assets, scene.frames.frames.front()))
     job.progress.warn(*coarse);
 }
@@ -326,14 +359,14 @@ std::string fibre_text(const SceneParts& parts, const std::string& material) {
 
 }  // namespace
 
-std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,
-                                           const Job& job) {
+std::vector<MaterialParams> load_materials(const SceneDescription& scene, Assets& assets, const Job& job) {
   std::vector<MaterialParams> materials;
   std::map<std::string, const FibreParams*> made;  // a table is made once for all materials that share it
   materials.reserve(scene.materials.items.size());
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();
-    MaterialParams material = with_textures(params, textures);
+    const std::optional<SkinFields> fields = skin_fields(assets, skin_of_material(scene, name), job);
+    MaterialParams material = with_textures(params, {assets.textures, fields ? &*fields : nullptr});
     const std::string text = fibre_text(scene.parts, name);
     if (const auto known = made.find(text); known != made.end() && fibre_params(material)) {
       std::visit(

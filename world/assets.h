@@ -60,8 +60,8 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
 void update_assets(const SceneDescription& scene, const Job& job, Assets& assets);
 
 /// Returns the materials of a scene, in its order, with their textures and tables. Throws Error: kInput for
-/// missing or damaged images, kStopped when the job is stopped.
-std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,
-                                           const Job& job);
+/// missing or damaged images, kStopped when the job is stopped. Fields that need a skin are loaded for the
+/// skin on which the material is used, if there is only one.
+std::vector<MaterialParams> load_materials(const SceneDescription& scene, Assets& assets, const Job& job);
 
 }  // namespace pelage

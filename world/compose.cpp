@@ -176,7 +176,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
 void recompose_sampling(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
                         World& world) {
   LightSet lights = make_lights(scene, assets, frame, job, world.scene.origin);
-  std::vector<MaterialParams> materials = load_materials(scene, assets.textures, job);
+  std::vector<MaterialParams> materials = load_materials(scene, assets, job);
   world.header = header_of(scene, frame);
   assets.materials = std::move(materials);
   world.scene.materials = assets.materials;

@@ -16,6 +16,7 @@
 #include "scene/renamed_keys.h"
 #include "world/asset_files.h"
 #include "world/leaf_sizes.h"
+#include "world/regions.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -67,6 +68,11 @@ std::vector<Problem> in_file_order(std::vector<Problem> problems) {
     };
     return key(a) < key(b);
   });
+  // A mistake in a region is found at each of its uses.
+  const auto same = [](const Problem& a, const Problem& b) {
+    return to_string(a.position) == to_string(b.position) && a.message == b.message;
+  };
+  problems.erase(std::unique(problems.begin(), problems.end(), same), problems.end());
   return problems;
 }
 
@@ -307,7 +313,8 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   Problems problems;
   SceneDescription scene;
   RenamedKeys renamed{SceneDescription::schema()};
-  if (const std::optional<Value> document = any_document(path, overrides, use, problems, renamed)) {
+  if (std::optional<Value> document = any_document(path, overrides, use, problems, renamed)) {
+    expand_regions(*document, problems);
     const ContentHash hash = document_hash(*document);
     scene.parts = scene_parts(*document);
     scene.files = files_of(*document, path);

@@ -190,6 +190,10 @@ camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0]
     s.key("image", &SceneDescription::image,
           {.help = "Size and layers of the picture", .default_text = "see image"});
     s.key("skins", &SceneDescription::skins, {.help = "Surfaces on which fur grows, by name"});
+    s.key("regions", &SceneDescription::regions,
+          {.help =
+               "Fields, by name, which any field may use as `{region: NAME}`: in a mask, a density, a value "
+               "of an operator or material, or another region. A region means the same on every skin"});
     s.key("grooms", &SceneDescription::grooms, {.help = "Coats, by name"});
     s.key("materials", &SceneDescription::materials, {.help = "Materials of skins and strands, by name"});
     s.key("characters", &SceneDescription::characters, {.help = "Animals, by name"});

@@ -109,6 +109,7 @@ struct SceneDescription {
   FrameList frames;
   CameraParams camera;
   ImageParams image;
+  Named<Field> regions;  ///< load_scene() has put them in the places of their names (world/regions.h)
   Named<SkinParams> skins;
   Named<GroomParams> grooms;
   Named<MaterialParams> materials;

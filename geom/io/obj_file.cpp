@@ -20,9 +20,9 @@ constexpr size_t kLongestFile = size_t(2) << 30;
 constexpr uint32_t kNoUv = std::numeric_limits<uint32_t>::max();
 constexpr int64_t kMaxIndex = std::numeric_limits<int32_t>::max();
 
+/// Further numbers, a weight or a colour, are not read.
 V3f read_position(ObjScanner& scanner) {
   V3f p(0);
-  // Further numbers are a weight or a colour, which cages do not use.
   if (scanner.number("x, a number", p.x) && scanner.number("y, a number", p.y))
     scanner.number("z, a number", p.z);
   return p;
@@ -52,12 +52,14 @@ class ObjReader {
     int line;
   };
 
+  void read_vertex();
   void read_uv();
   void read_face();
   bool read_corner(std::string_view token);
   bool resolve(int64_t index, size_t count, const char* what, uint32_t& result);
   void check_face(size_t first);
-  void read_group();
+  void read_group(std::string name);
+  void read_name(const std::string& name, ControlMesh::FaceNames& all, int& current);
   void read_tag();
   std::vector<int64_t> read_tag_integers(int64_t count);
   std::vector<float> read_tag_sharpness(int64_t count, size_t wanted);
@@ -71,7 +73,7 @@ class ObjReader {
   std::vector<Reference> vertex_references_;  // of tags
   std::vector<Reference> face_references_;
   std::unordered_map<std::string, uint16_t> group_numbers_;
-  int current_group_ = -1;
+  int current_group_ = -1, current_object_ = -1, current_material_ = -1;
 };
 
 ControlMesh ObjReader::read() {
@@ -79,13 +81,17 @@ ControlMesh ObjReader::read() {
   for (size_t statement = 0; scanner_.next_statement(keyword); ++statement) {
     if (job_ && statement % 4096 == 0) job_->check_stop();
     if (keyword == "v") {
-      mesh_.positions.push_back(read_position(scanner_));
+      read_vertex();
     } else if (keyword == "vt") {
       read_uv();
     } else if (keyword == "f") {
       read_face();
     } else if (keyword == "g" || keyword == "o") {
-      read_group();
+      const std::string name(scanner_.rest());
+      if (keyword == "o") read_name(name, mesh_.objects, current_object_);
+      read_group(name);
+    } else if (keyword == "usemtl") {
+      read_name(std::string(scanner_.rest()), mesh_.materials, current_material_);
     } else if (keyword == "t") {
       read_tag();
     }
@@ -95,6 +101,21 @@ ControlMesh ObjReader::read() {
   scanner_.throw_if_any();
   complete_uv();
   return std::move(mesh_);
+}
+
+void ObjReader::read_vertex() {
+  mesh_.positions.push_back(read_position(scanner_));
+  std::string_view token[3];
+  int count = 0;
+  while (count < 3 && scanner_.next_token(token[count])) ++count;
+  Rgb color(1);
+  if (count == 3) {
+    for (int c = 0; c < 3; ++c) {
+      if (!scanner_.parse_number(token[c], "a channel of the vertex colour, a number", color[c])) return;
+    }
+    mesh_.colors.resize(mesh_.positions.size() - 1, Rgb(1));
+  }
+  if (count == 3 || !mesh_.colors.empty()) mesh_.colors.push_back(color);
 }
 
 void ObjReader::read_uv() {
@@ -169,11 +190,15 @@ void ObjReader::read_face() {
   }
   mesh_.face_sizes.push_back(static_cast<uint32_t>(mesh_.face_vertices.size() - first));
   mesh_.face_groups.push_back(static_cast<uint16_t>(current_group_));
+  for (const auto& [names, current] :
+       {std::pair(&mesh_.objects, current_object_), std::pair(&mesh_.materials, current_material_)}) {
+    if (current >= 0) names->faces.resize(mesh_.face_sizes.size() - 1);
+    if (current >= 0) names->faces.push_back(static_cast<uint16_t>(current));
+  }
   face_lines_.push_back(line);
 }
 
-void ObjReader::read_group() {
-  std::string name(scanner_.rest());
+void ObjReader::read_group(std::string name) {
   if (name.empty()) name = "default";
   const auto [entry, is_new] = group_numbers_.emplace(name, static_cast<uint16_t>(mesh_.groups.size()));
   if (is_new) {
@@ -185,6 +210,17 @@ void ObjReader::read_group() {
     mesh_.groups.push_back(std::move(name));
   }
   current_group_ = entry->second;
+}
+
+void ObjReader::read_name(const std::string& name, ControlMesh::FaceNames& all, int& current) {
+  // Faces before the first name have the name "".
+  if (all.names.empty()) all.names.emplace_back();
+  const auto known = std::find(all.names.begin(), all.names.end(), name);
+  current = static_cast<int>(known - all.names.begin());
+  if (known != all.names.end()) return;
+  if (all.names.size() > std::numeric_limits<uint16_t>::max())
+    return scanner_.report("more than 65535 objects or materials");
+  all.names.push_back(name);
 }
 
 std::vector<int64_t> ObjReader::read_tag_integers(int64_t count) {

@@ -10,13 +10,15 @@ namespace pelage {
 
 struct Job;
 
-/// Reads a cage from an OBJ file. Reads v, vt, f (3 or more corners, also negative indices), g and o. Also
+/// Reads a cage from an OBJ file. Reads v, vt, f (3 or more corners, also negative indices), g, o and usemtl.
+/// Three more numbers of a v line are the colour of the vertex, a fourth number alone is a weight. Also
 /// reads the `t` lines of OpenSubdiv's shapes: crease, corner, hole, interpolateboundary, creasemethod and
 /// smoothtriangles. Indices in `t` lines refer to the whole file and start at 0. Ignores all other
 /// statements.
 ///
-/// A face belongs to the group of the last g or o line above it. If only some faces have texture coordinates,
-/// the other faces get (0, 0).
+/// A face belongs to the group of the last g or o line above it, and to the object and the material of the
+/// last o and usemtl line. Vertices without a colour are white where others have one. If only some faces have
+/// texture coordinates, the other faces get (0, 0).
 ///
 /// Throws Error (kInput) with all problems: malformed or non-finite numbers, indices out of range, faces with
 /// fewer than 3 different vertices, hierarchical edits, no faces. The first 20 problems are listed with file

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/program_identity.h"
 #include "geom/limit_surface.h"
+#include "image/field_skin.h"
 
 namespace pelage {
 namespace {
@@ -25,7 +26,8 @@ void describe(const T& value, const char* key, std::vector<ParameterText>& out) 
 }  // namespace
 
 GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
-                             const LimitSurface* rest) {
+                             const LimitSurface* rest, const FieldSkin* skin)
+    : skin_(skin) {
   add("skin", growth_version::kSkin,
       {{"fields", std::to_string(growth_version::kFields)},
        {"machine", arithmetic_identity()},
@@ -66,6 +68,10 @@ void GroomIdentity::add(std::string name, int version, const std::vector<Paramet
       for (size_t at = text.find(path); at != std::string::npos; at = text.find(path, at + shown.size()))
         text.replace(at, path.size(), shown);
     }
+    const bool reads_mesh =
+        text.find("{vertex_color: ") != std::string::npos || text.find("{group: ") != std::string::npos;
+    if (reads_mesh && skin_)
+      stage.inputs.emplace_back("colours and groups of the mesh", to_string(skin_->attributes_hash()));
     stage.inputs.emplace_back(parameter.key, std::move(text));
     for (const std::filesystem::path& file : parameter.files)
       stage.inputs.emplace_back("contents of " + file.filename().string(), hash_of_file(file));

@@ -11,6 +11,8 @@
 
 namespace pelage {
 
+class FieldSkin;
+
 /// Versions of the steps of growth that are not operators; the version of an operator is one of its traits.
 ///
 /// Cached strands are found by these versions, so a change of the code leaves caches valid unless it raises
@@ -42,8 +44,9 @@ class GroomIdentity {
 
   /// `seed`: hash of the groom's seed and name. A file that cannot be read is recorded as such without an
   /// error; the code that needs the file reports the error.
+  /// `skin`: what fields read from the mesh of the skin; may be null.
   GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
-                const LimitSurface* rest);
+                const LimitSurface* rest, const FieldSkin* skin = nullptr);
 
   const std::vector<GroomStage>& stages() const { return stages_; }
   const GroomStage& of_operator(size_t i) const { return stages_[kFirstOperator + i]; }
@@ -54,6 +57,7 @@ class GroomIdentity {
   void add(std::string name, int version, const std::vector<ParameterText>& parameters);
 
   std::vector<GroomStage> stages_;
+  const FieldSkin* skin_;
 };
 
 }  // namespace pelage

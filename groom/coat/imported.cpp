@@ -108,7 +108,8 @@ void ImportedStrands::place_free(StrandBatch& batch, size_t begin) const {
   for (size_t s = 0; s < batch.count; ++s) {
     batch.ids[s] = follicles_.id(begin + s);
     batch.rest.set(s, first_point(begin + s), Frame{});
-    batch.u[s] = batch.v[s] = 0;
+    batch.u[s] = batch.v[s] = batch.face_u[s] = batch.face_v[s] = 0;
+    batch.face[s] = 0;
     batch.clump[s] = 0;
   }
 }

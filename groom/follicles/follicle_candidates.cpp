@@ -144,8 +144,11 @@ float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& ad
   const V2f uv = topology.texture_coordinates(address.face, address.u, address.v);
   place.u = uv.x;
   place.v = uv.y;
+  place.face = address.face;
+  place.face_uv = {address.u, address.v};
+  if (coverage || field.dependence().normal) place.normal = LimitSurface::frame_of(point).normal;
   float value = field.value(place);
-  if (coverage && value > 0) value *= coverage(point.position, LimitSurface::frame_of(point).normal);
+  if (coverage && value > 0) value *= coverage(place);
   return value > 0 && std::isfinite(value) ? value : 0.0f;
 }
 

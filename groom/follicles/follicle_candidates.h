@@ -19,7 +19,7 @@ struct Job;
 /// Density of strands over a skin: a field, times a factor if operators restrict where the coat grows.
 struct FollicleDensity {
   Field field{1.0f};
-  std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< the factor; may be empty
+  std::function<float(const FieldPoint& root)> coverage;  ///< the factor; may be empty
 
   bool is_uniform() const { return field.is_constant() && !coverage; }
   /// Returns the density at a point of the skin, >= 0. A value that is not finite counts as 0.

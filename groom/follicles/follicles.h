@@ -30,7 +30,7 @@ struct FollicleOptions {
   double per_area = 0;
   Field density{1.0f};  ///< relative density over the skin, >= 0
   /// Additional factor on the density; may be empty.
-  std::function<float(const V3f& rest, const V3f& normal)> coverage;
+  std::function<float(const FieldPoint& root)> coverage;
   uint64_t seed = 0;
   int leaf_strands = 8000;
   std::string owner = "groom";   ///< owner of the follicles, for messages

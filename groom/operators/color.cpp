@@ -47,7 +47,7 @@ OperatorTraits Color::traits() const {
                                 : AttributeClass::kPerStrand,
           .replaces_colors = !needs.attributes,
           .attributes_only = true,
-          .rest_use = needs.rest ? RestUse::kPositions : RestUse::kNone};
+          .rest_use = pelage::rest_use(needs)};
 }
 
 Operator::Brightness Color::brightness(uint64_t seed, uint64_t strand_id) const {

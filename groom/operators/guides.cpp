@@ -148,10 +148,10 @@ void Guides::prepare(const PrepareContext& context) {
       static_cast<int64_t>(guides_->bytes() + near_.bytes() + covered_.bytes()));
 }
 
-float Guides::coverage(const V3f& rest_position, const V3f& normal) const {
+float Guides::coverage(const FieldPoint& root) const {
   if (!params_.spread) return 1;
   float total = 0;
-  covered_.for_each_near(rest_position, normal, [&](uint32_t, float distance2) {
+  covered_.for_each_near(root.rest, root.normal, [&](uint32_t, float distance2) {
     const float x = 1.0f - distance2 / (covered_.radius() * covered_.radius());
     total += x * x;
   });

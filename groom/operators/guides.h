@@ -50,7 +50,7 @@ class Guides final : public OperatorOf<GuidesParams> {
     return {.name = kName, .version = 2, .restricts_coverage = params_.spread.has_value()};
   }
   void prepare(const PrepareContext& context) override;
-  float coverage(const V3f& rest_position, const V3f& normal) const override;
+  float coverage(const FieldPoint& root) const override;
   void apply(StrandBatch& batch) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 

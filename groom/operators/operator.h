@@ -15,12 +15,13 @@
 #include "base/schema.h"
 #include "base/vector.h"
 #include "geom/strands.h"
+#include "image/field.h"
+#include "image/field_skin.h"
 
 namespace pelage {
 
 class LimitSurface;
 class Operator;
-class TextureLibrary;
 struct Job;
 struct StrandBatch;
 
@@ -48,6 +49,11 @@ struct StrandReach {
 
 /// Data of the roots on the rest skin that an operator reads.
 enum class RestUse { kNone, kPositions, kFrames };
+
+/// Returns what a field with this dependence reads.
+inline RestUse rest_use(const FieldDependence& needs) {
+  return needs.normal ? RestUse::kFrames : needs.rest ? RestUse::kPositions : RestUse::kNone;
+}
 
 /// What an operator is and what it needs, as the growth of a coat sees it. Depends on its parameters only.
 struct OperatorTraits {
@@ -79,7 +85,7 @@ struct OperatorTraits {
 /// Inputs of prepare(), which runs before strands are grown. Rest state only.
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
-  TextureLibrary& textures;
+  FieldSources textures;               ///< what fields are loaded from
   const Job& job;
   std::span<const std::unique_ptr<Operator>> preceding;  ///< the operators before this one, already prepared
   /// Seed of this operator; depends on the groom's seed and differs between operators of the same name.
@@ -112,8 +118,8 @@ class Operator {
   /// once. Charges memory that it keeps to the ledger. Throws Error: kInput for unusable files, kMemory
   /// before allocating memory that does not fit, kStopped when the job is stopped.
   virtual void prepare(const PrepareContext&) {}
-  /// Returns the factor on the density of the groom at a point of the rest skin.
-  virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
+  /// Returns the factor on the density of the groom at a point of the rest skin. `root` has no attributes.
+  virtual float coverage(const FieldPoint& /*root*/) const { return 1; }
   virtual void apply(StrandBatch& batch) const = 0;
   /// Returns the bounds of strands after apply(). `before`: their bounds before it. The max distance is at
   /// most 1.5 times the distance of the point that is actually the farthest.

@@ -13,12 +13,15 @@
 #include "groom/operators/frizz.h"
 #include "groom/operators/guides.h"
 #include "groom/operators/length.h"
+#include "groom/operators/masked_operator.h"
 #include "groom/operators/noise.h"
 #include "groom/operators/push_out.h"
 #include "groom/operators/width.h"
 
 namespace pelage {
 namespace {
+
+constexpr std::string_view kMaskKey = "mask";
 
 /// Data that the reader needs about each operator.
 struct OperatorKind {
@@ -34,7 +37,8 @@ OperatorKind kind_of() {
           [](const Value& value, Problems& problems) -> std::shared_ptr<const Operator> {
             typename Op::Params params;
             // `- color:` with nothing behind it means the defaults.
-            if (!value.is_null() && !Op::Params::schema().read(value, params, problems)) return nullptr;
+            if (!value.is_null() && !Op::Params::schema().read(value, params, problems, kMaskKey))
+              return nullptr;
             return std::make_shared<Op>(std::move(params));
           },
           [](const Operator& prototype) -> std::unique_ptr<Operator> {
@@ -67,6 +71,18 @@ bool read_item(const Value& value, OperatorList::Item& item, Problems& problems)
     return false;
   }
   item = {entry.key, entry.key_position, kind->read(entry.value, problems), kind->clone};
+  if (const Value* mask = entry.value.find(kMaskKey)) {
+    MaskParams params;
+    const Value block =
+        Value::map(entry.value.position(), {{std::string(kMaskKey), mask->position(), *mask}});
+    if (!MaskParams::schema().read(block, params, problems)) return false;
+    if (item.prototype)
+      item.prototype = std::make_shared<MaskedOperator>(item.prototype, kind->clone, std::move(params.mask));
+    item.masked = true;
+    item.clone = [](const Operator& prototype) -> std::unique_ptr<Operator> {
+      return std::make_unique<MaskedOperator>(static_cast<const MaskedOperator&>(prototype));
+    };
+  }
   return item.prototype != nullptr;
 }
 
@@ -99,6 +115,7 @@ bool ValueReader<OperatorList>::read(const Value& value, const KeyOptions&, Oper
 std::vector<const SchemaInfo*> ValueReader<OperatorList>::blocks() {
   std::vector<const SchemaInfo*> result;
   for (const OperatorKind& kind : kinds()) result.push_back(&kind.schema());
+  result.push_back(&MaskParams::schema());
   return result;
 }
 
@@ -108,6 +125,7 @@ void ValueReader<OperatorList>::visit_blocks(Value& value, const BlockVisitor& v
       for (const OperatorKind& kind : kinds()) {
         if (kind.name == entry.key) visit(entry.value, kind.schema());
       }
+      if (entry.value.find(kMaskKey)) visit(entry.value, MaskParams::schema());
     }
   }
 }

@@ -18,6 +18,7 @@ struct OperatorList {
     SourcePosition position;
     std::shared_ptr<const Operator> prototype;
     std::unique_ptr<Operator> (*clone)(const Operator&) = nullptr;
+    bool masked = false;  ///< whether the prototype is a MaskedOperator
   };
   std::vector<Item> items;
 };

@@ -45,8 +45,9 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
   }
   throw Error(ErrorKind::kInput, position,
               "a number of '" + name +
-                  "' has no upper limit, because it reads an attribute without one; only `random` and "
-                  "`clump` have limits");
+                  "' has no upper limit, because it reads an attribute or a distance without one; of "
+                  "attributes, only `random` and "
+                  "`clump` have limits; put it into the field `clamp`");
 }
 
 /// The frame at a point that is already evaluated; evaluates the surface again only where it is ill-defined.
@@ -135,9 +136,9 @@ StrandReach OperatorStack::reach(StrandReach before, size_t begin, size_t end) c
   return before;
 }
 
-float OperatorStack::coverage(const V3f& rest_position, const V3f& normal) const {
+float OperatorStack::coverage(const FieldPoint& root) const {
   float result = 1;
-  for (const auto& op : operators_) result *= op->coverage(rest_position, normal);
+  for (const auto& op : operators_) result *= op->coverage(root);
   return result;
 }
 
@@ -161,6 +162,9 @@ void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const Follic
     const V2f uv = topology.texture_coordinates(root.face, root.u, root.v);
     batch.u[s] = uv.x;
     batch.v[s] = uv.y;
+    batch.face[s] = root.face;
+    batch.face_u[s] = root.u;
+    batch.face_v[s] = root.v;
   }
 }
 

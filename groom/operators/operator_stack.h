@@ -50,7 +50,7 @@ class OperatorStack {
   /// operators.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
   /// Returns the product of the coverage of all operators.
-  float coverage(const V3f& rest_position, const V3f& normal) const;
+  float coverage(const FieldPoint& root) const;
 
  private:
   struct Place {
@@ -69,7 +69,7 @@ class OperatorStack {
 
 /// Sets the rest roots, ids and texture coordinates of a batch: follicles [begin, begin + batch.count).
 void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles, size_t begin);
-/// Sets only the ids and texture coordinates of follicles [begin, begin + batch.count).
+/// Sets only the ids, texture coordinates and faces of follicles [begin, begin + batch.count).
 void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const FollicleTree& follicles,
                size_t begin);
 /// Sets batch.current to the roots of follicles [begin, begin + batch.count) in a pose.

@@ -29,7 +29,7 @@ class PushOut final : public OperatorOf<PushOutParams> {
     return {.name = kName,
             .reads_rest_only = false,
             .needs_closest_point = true,
-            .rest_use = params_.offset.dependence().rest ? RestUse::kPositions : RestUse::kNone};
+            .rest_use = pelage::rest_use(params_.offset.dependence())};
   }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;

@@ -40,7 +40,7 @@ OperatorTraits Width::traits() const {
   return {.name = kName,
           .has_one_width_profile = !root.surface && !root.attributes && !tip.surface && !tip.attributes,
           .attributes_only = true,
-          .rest_use = root.rest || tip.rest ? RestUse::kPositions : RestUse::kNone};
+          .rest_use = std::max(pelage::rest_use(root), pelage::rest_use(tip))};
 }
 
 void Width::prepare(const PrepareContext& context) {

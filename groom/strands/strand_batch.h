@@ -55,11 +55,13 @@ struct StrandBatch {
   /// One element per point, or one for whole strands, or none if no colours are needed.
   std::vector<VectorRow> colors;
   std::array<uint64_t, kBlockStrands> ids;
-  RootRows rest;                           ///< roots in rest space
-  RootRows current;                        ///< roots in the batch's space
-  StrandRow u, v;                          ///< texture coordinates of the roots
-  StrandRow clump;                         ///< random number of the strand's clump, or of the strand itself
-  const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that need it
+  RootRows rest;                             ///< roots in rest space
+  RootRows current;                          ///< roots in the batch's space
+  StrandRow u, v;                            ///< texture coordinates of the roots
+  std::array<uint32_t, kBlockStrands> face;  ///< ptex faces of the roots, if they are on a skin
+  StrandRow face_u, face_v;                  ///< parameters of the roots in these faces
+  StrandRow clump;                           ///< random number of the strand's clump, or of the strand itself
+  const ClosestPointTree* skin = nullptr;    ///< the posed skin, for operators that need it
   /// Scale of the character: length in the batch's space of a scene unit in operator parameters.
   float scale = 1;
   bool posed = false;  ///< whether the batch's space is a posed space

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/hash.h"
+#include "image/field_node.h"
 
 namespace pelage {
 namespace {
@@ -22,6 +23,11 @@ void visit(const FieldDependence& needs, const StrandBatch& batch, float along, 
     place.rest = vector_at(batch.rest.position, s);
     place.u = batch.u[s];
     place.v = batch.v[s];
+    if (needs.normal) place.normal = vector_at(batch.rest.normal, s);
+    if (needs.face) {
+      place.face = batch.face[s];
+      place.face_uv = {batch.face_u[s], batch.face_v[s]};
+    }
     if (needs.attributes) {
       attributes[0].value = Rgb(unit_float(hash64(batch.ids[s], random_use("field random"))));
       attributes[1].value = Rgb(batch.clump[s]);
@@ -49,83 +55,87 @@ bool changes_along(const Field& field) {
   return std::find(names.begin(), names.end(), "color") != names.end();
 }
 
-void multiply(const StrandRow& factor, size_t count, StrandRow& product) {
-  for (size_t s = 0; s < count; ++s) product[s] *= factor[s];
+/// The channels of a row: one number or a colour per strand.
+std::span<StrandRow> channels(StrandRow& row) { return {&row, 1}; }
+std::span<StrandRow> channels(VectorRow& row) { return row; }
+std::span<const StrandRow> channels(const StrandRow& row) { return {&row, 1}; }
+std::span<const StrandRow> channels(const VectorRow& row) { return row; }
+
+Rgb value_of(const Field& field, const FieldPoint& place, const VectorRow&) { return field.color(place); }
+Rgb value_of(const Field& field, const FieldPoint& place, const StrandRow&) {
+  return Rgb(field.value(place));
+}
+
+/// Computes a field from the rows of its inputs. The result is bit-identical to Field::value and
+/// Field::color.
+template <class Row>
+void combine(const Field& field, std::span<const Row* const> inputs, size_t count, Row& out) {
+  std::vector<const float*> rows(inputs.size());
+  for (size_t c = 0; c < channels(out).size(); ++c) {
+    for (size_t i = 0; i < inputs.size(); ++i) rows[i] = channels(*inputs[i])[c].data();
+    field.node().combine(rows, count, channels(out)[c].data());
+  }
+}
+
+/// Evaluates a field at position `along` of the strands, where the attribute "color" is that at `point`.
+template <class Row>
+void evaluate_rows(const Field& field, const StrandBatch& batch, float along, int point, Row& out) {
+  if (!changes_by_strand(field)) {
+    FieldPoint place;
+    place.along = along;
+    const Rgb value = value_of(field, place, out);
+    for (size_t c = 0; c < channels(out).size(); ++c) channels(out)[c].fill(value[static_cast<int>(c)]);
+  } else if (!field.inputs().empty()) {
+    std::vector<Row> values(field.inputs().size());
+    std::vector<const Row*> inputs;
+    for (size_t i = 0; i < values.size(); ++i) {
+      evaluate_rows(field.inputs()[i], batch, along, point, values[i]);
+      inputs.push_back(&values[i]);
+    }
+    combine<Row>(field, inputs, batch.count, out);
+  } else {
+    visit(field.dependence(), batch, along, point, [&](size_t s, const FieldPoint& place) {
+      const Rgb value = value_of(field, place, out);
+      for (size_t c = 0; c < channels(out).size(); ++c) channels(out)[c][s] = value[static_cast<int>(c)];
+    });
+  }
 }
 
 }  // namespace
 
 void evaluate(const Field& field, const StrandBatch& batch, float along, StrandRow& out) {
-  if (!changes_by_strand(field)) {
-    FieldPoint place;
-    place.along = along;
-    out.fill(field.value(place));
-    return;
-  }
-  visit(field.dependence(), batch, along, 0,
-        [&](size_t s, const FieldPoint& place) { out[s] = field.value(place); });
+  evaluate_rows(field, batch, along, 0, out);
 }
 
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out) {
-  if (!changes_by_strand(field)) {
-    FieldPoint place;
-    place.along = batch.along(point);
-    const Rgb c = field.color(place);
-    out[0].fill(c.x);
-    out[1].fill(c.y);
-    out[2].fill(c.z);
-    return;
-  }
-  visit(field.dependence(), batch, batch.along(point), point, [&](size_t s, const FieldPoint& place) {
-    const Rgb c = field.color(place);
-    set_vector(out, s, V3f(c.x, c.y, c.z));
-  });
+  evaluate_rows(field, batch, batch.along(point), point, out);
 }
 
 template <class Row>
-StrandField::Factors<Row>::Factors(const Field& field, const StrandBatch& batch) {
-  const std::span<const Field> factors =
-      field.factors().empty() ? std::span<const Field>(&field, 1) : field.factors();
-  list.reserve(factors.size());
-  for (const Field& factor : factors) {
-    list.push_back({factor, changes_along(factor), changes_by_strand(factor), {}});
-    if (list.back().changes_along) continue;
-    if constexpr (std::is_same_v<Row, StrandRow>) {
-      evaluate(factor, batch, 0, list.back().fixed);
-    } else {
-      evaluate_color(factor, batch, 0, list.back().fixed);
-    }
+FieldRows<Row>::FieldRows(const Field& field, const StrandBatch& batch)
+    : field_(field), batch_(batch), changes_along_(changes_along(field)) {
+  if (!changes_along_) {
+    evaluate_rows(field, batch, 0, 0, row_);
+  } else if (changes_by_strand(field)) {
+    inputs_.reserve(field.inputs().size());
+    for (const Field& input : field.inputs()) inputs_.emplace_back(input, batch);
   }
 }
 
-template struct StrandField::Factors<StrandRow>;
-template struct StrandField::Factors<VectorRow>;
-
-const StrandRow& StrandField::at(float along) {
-  const size_t count = batch_.count;
-  if (factors_.list.size() == 1) {
-    if (!factors_.list[0].changes_along) return factors_.list[0].fixed;
-    evaluate(factors_.list[0].field, batch_, along, row_);
+template <class Row>
+const Row& FieldRows<Row>::at(float along, int point) {
+  if (!changes_along_) return row_;
+  if (inputs_.empty()) {
+    evaluate_rows(field_, batch_, along, point, row_);
     return row_;
   }
-  // In the order of the product: the result is bit-identical to Field::value.
-  std::fill_n(row_.begin(), count, 1.0f);
-  StrandRow value;
-  for (const Factor<StrandRow>& factor : factors_.list) {
-    if (factor.changes_along) evaluate(factor.field, batch_, along, value);
-    multiply(factor.changes_along ? value : factor.fixed, count, row_);
-  }
+  std::vector<const Row*> rows;
+  for (FieldRows& input : inputs_) rows.push_back(&input.at(along, point));
+  combine<Row>(field_, rows, batch_.count, row_);
   return row_;
 }
 
-void StrandColor::at(int point, VectorRow& out) {
-  const size_t count = batch_.count;
-  for (StrandRow& channel : out) std::fill_n(channel.begin(), count, 1.0f);
-  VectorRow value;
-  for (const StrandField::Factor<VectorRow>& factor : factors_.list) {
-    if (factor.changes_along) evaluate_color(factor.field, batch_, point, value);
-    for (size_t c = 0; c < 3; ++c) multiply(factor.changes_along ? value[c] : factor.fixed[c], count, out[c]);
-  }
-}
+template class FieldRows<StrandRow>;
+template class FieldRows<VectorRow>;
 
 }  // namespace pelage

@@ -20,41 +20,44 @@ void evaluate(const Field& field, const StrandBatch& batch, float along, StrandR
 /// colour at this point.
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
-/// Evaluates a field over a batch at successive positions along the strands. A field may be a product; each
-/// factor is evaluated separately. A factor that does not change along strands is evaluated once per strand.
-/// A factor that changes only along strands is evaluated once per position.
-class StrandField {
+/// Evaluates a field over a batch at successive positions along the strands. If it is computed from other
+/// fields, each of these is evaluated separately. A field that does not change along strands is evaluated
+/// once per strand. A field that changes only along strands is evaluated once per position. `Row`: StrandRow
+/// for the first channel, VectorRow for all three. The field and the batch must outlive this object.
+template <class Row>
+class FieldRows {
  public:
-  StrandField(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}
-  /// Returns the values at position `along` of the strands. The next call overwrites the returned row.
-  const StrandRow& at(float along);
+  FieldRows(const Field& field, const StrandBatch& batch);
+  /// Returns the values at position `along` of the strands, where the attribute "color" is that at `point`.
+  /// The next call overwrites the returned row.
+  const Row& at(float along, int point);
 
  private:
-  friend class StrandColor;
-  template <class Row>
-  struct Factor {
-    const Field& field;
-    bool changes_along, changes_by_strand;
-    Row fixed;  // values of a factor that does not change along strands
-  };
-  template <class Row>
-  struct Factors {
-    Factors(const Field& field, const StrandBatch& batch);
-    std::vector<Factor<Row>> list;
-  };
-  Factors<StrandRow> factors_;
+  const Field& field_;
   const StrandBatch& batch_;
-  StrandRow row_;
+  bool changes_along_;
+  std::vector<FieldRows> inputs_;  // of a field that changes along strands
+  Row row_;
 };
 
-/// Evaluates all three channels of a field over a batch, at successive points. Otherwise like StrandField.
-class StrandColor {
+/// Evaluates the first channel of a field over a batch, at successive positions.
+class StrandField {
  public:
-  StrandColor(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}
-  void at(int point, VectorRow& out);
+  StrandField(const Field& field, const StrandBatch& batch) : rows_(field, batch) {}
+  const StrandRow& at(float along) { return rows_.at(along, 0); }
 
  private:
-  StrandField::Factors<VectorRow> factors_;
+  FieldRows<StrandRow> rows_;
+};
+
+/// Evaluates all three channels of a field over a batch, at successive points.
+class StrandColor {
+ public:
+  StrandColor(const Field& field, const StrandBatch& batch) : rows_(field, batch), batch_(batch) {}
+  void at(int point, VectorRow& out) { out = rows_.at(batch_.along(point), point); }
+
+ private:
+  FieldRows<VectorRow> rows_;
   const StrandBatch& batch_;
 };
 

@@ -278,7 +278,8 @@ std::optional<ContentHash> FrameChunks::content(uint32_t leaf) const {
   // Boxes that are linear in time are not kept (ChunkBoxes::take_given()).
   if (!strands || !in_fur_trees() || bound_keys(render.bounds) != 1) return {};
   const FibreParams& fibre = fibre_material(scene_, scene_.fur[parts_[leaf]]);
-  if (!is_opaque(fibre.opacity) && !fibre.opacity.maps().empty()) return {};  // the text names only files
+  if (!is_opaque(fibre.opacity) && (!fibre.opacity.files().empty() || fibre.opacity.dependence().face))
+    return {};  // the text names only files
   const StrandScale scale = this->scale(leaf);
   ContentHasher hasher;
   hasher.add("chunk of fur").add(*strands).add(ValueReader<Field>::print(fibre.opacity));

@@ -202,7 +202,14 @@ Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& 
     const V2f uv = part.rest->topology().texture_coordinates(face, place.x, place.y);
     point.u = uv.x;
     point.v = uv.y;
-    if (skin.color.dependence().surface) point.rest = part.rest->evaluate(face, place.x, place.y).position;
+    point.face = face;
+    point.face_uv = place;
+    const FieldDependence needs = skin.color.dependence();
+    if (needs.surface) {
+      const SurfacePoint at = part.rest->evaluate(face, place.x, place.y);
+      point.rest = at.position;
+      if (needs.normal) point.normal = part.rest->frame(at, face, place.x, place.y).normal;
+    }
   }
   return skin.color.color(point);
 }

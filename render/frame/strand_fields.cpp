@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "geom/rest_position.h"
-#include "image/field_nodes.h"
+#include "image/field_node.h"
 
 namespace pelage {
 namespace {
@@ -26,7 +26,11 @@ class StrandFieldPoint {
       point_.v = uv.y;
       if (rest && strands.has_roots()) {
         const RootAddress& root = strands.root(place.strand);
-        point_.rest = rest->evaluate(root.face, root.u, root.v).position;
+        const SurfacePoint at = rest->evaluate(root.face, root.u, root.v);
+        point_.rest = at.position;
+        point_.face = root.face;
+        point_.face_uv = {root.u, root.v};
+        if (needs.normal) point_.normal = rest->frame(at, root.face, root.u, root.v).normal;
       } else {
         point_.rest =
             rest_position(strands, place.strand).value_or(strands.point(strands.first_point(place.strand)));

@@ -122,11 +122,11 @@ const FibreParams* fibre_params(const MaterialParams& material) {
       material);
 }
 
-MaterialParams with_textures(MaterialParams material, TextureLibrary& textures) {
+MaterialParams with_textures(MaterialParams material, const FieldSources& sources) {
   std::visit(
       [&](auto& params) {
-        params.color = params.color.with_textures(textures);
-        if constexpr (requires { params.opacity; }) params.opacity = params.opacity.with_textures(textures);
+        params.color = params.color.with_textures(sources);
+        if constexpr (requires { params.opacity; }) params.opacity = params.opacity.with_textures(sources);
       },
       material);
   return material;

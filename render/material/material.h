@@ -67,10 +67,10 @@ using MaterialParams =
 /// Returns the parameters that all fibre models share; null for a skin material.
 const FibreParams* fibre_params(const MaterialParams& material);
 
-class TextureLibrary;
+struct FieldSources;
 
 /// Returns the material with the textures of its fields loaded. Throws Error (kInput) when a texture that the
 /// scene names is missing.
-MaterialParams with_textures(MaterialParams material, TextureLibrary& textures);
+MaterialParams with_textures(MaterialParams material, const FieldSources& sources);
 
 }  // namespace pelage

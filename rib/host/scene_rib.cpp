@@ -7,12 +7,14 @@
 
 #include "base/file_name.h"
 #include "base/version.h"
+#include "groom/strands/skin_fields.h"
 #include "rib/host/camera_rib.h"
 #include "rib/host/shading_rib.h"
 #include "rib/host/skin_rib.h"
 #include "rib/host/yaml_text.h"
 #include "world/frame_coats.h"
 #include "world/frames.h"
+#include "world/regions.h"
 
 namespace pelage {
 namespace {
@@ -21,6 +23,7 @@ Value document_of(const SceneRibSource& source) {
   Problems problems;
   RenamedKeys renamed{SceneDescription::schema()};
   std::optional<Value> document = load_document(source.path, source.overrides, problems, &renamed);
+  if (document) expand_regions(*document, problems);
   problems.throw_if_any();
   if (!document) throw Error(ErrorKind::kInput, source.path.string() + ": changed while it was read");
   make_paths_absolute(*document, SceneDescription::schema());
@@ -123,11 +126,11 @@ class SceneRibWriter {
   Rgb skin_color(const FrameSkin& skin) {
     const auto [known, is_new] = skin_colors_.try_emplace({skin.skin, skin.material});
     if (is_new) {
+      const Assets::Skin& on = source_.assets.skins.at(skin.skin);
+      const SkinFields fields("skin '" + skin.skin + "'", *on.rest, on.cage, job_);
       const MaterialParams material =
-          with_textures(source_.scene.materials.find(skin.material)->value, textures_);
-      known->second = std::visit(
-          [&](const auto& m) { return mean_color(m.color, *source_.assets.skins.at(skin.skin).rest); },
-          material);
+          with_textures(source_.scene.materials.find(skin.material)->value, {textures_, &fields});
+      known->second = std::visit([&](const auto& m) { return mean_color(m.color, *on.rest); }, material);
     }
     return known->second;
   }
@@ -203,6 +206,9 @@ Rgb mean_color(const Field& color, const LimitSurface& rest) {
     point.rest = at.position;
     point.u = uv.x;
     point.v = uv.y;
+    point.face = face;
+    point.face_uv = V2f(middle);
+    point.normal = rest.frame(at, face, middle, middle).normal;
     const Rgb value = color.color(point);
     const auto size = static_cast<double>(at.du.cross(at.dv).length());
     weighted += size * Imath::V3d(value.x, value.y, value.z);

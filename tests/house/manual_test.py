@@ -8,8 +8,10 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MANUAL = ROOT / "docs" / "MANUAL.md"
-OPERATORS = ("length", "comb", "bend", "clump", "curl", "frizz", "noise", "guides", "push_out", "width", "color")
-FIELDS = ("map field", "ramp field", "noise field", "attribute field", "product field")
+OPERATORS = ("length", "comb", "bend", "clump", "curl", "frizz", "noise", "guides", "push_out", "width", "color",
+             "operator mask")
+FIELDS = tuple(f"{kind} field" for kind in (
+    "map", "ramp", "noise", "attribute", "product", "add", "min", "sphere", "region"))
 
 
 def load_pictures():

@@ -197,16 +197,16 @@ TEST(Field, RefusesStatedNumbersOutsideTheLimits) {
 TEST(Field, NamesWhatWasExpected) {
   EXPECT_EQ(
       error_of(scalar("red", 4)),
-      "s.yaml:1:4: expected a number, a colour [r, g, b], or a block with map, ramp, noise, attribute or "
-      "product, got 'red'");
+      "s.yaml:1:4: expected a number, a colour [r, g, b], or a block with a kind of field, such as map, ramp "
+      "or noise, got 'red'");
   EXPECT_EQ(
       error_of(numbers({"1", "2"}, 4)),
-      "s.yaml:1:4: expected a number, a colour [r, g, b], or a block with map, ramp, noise, attribute or "
-      "product, got a list of 2");
+      "s.yaml:1:4: expected a number, a colour [r, g, b], or a block with a kind of field, such as map, ramp "
+      "or noise, got a list of 2");
   EXPECT_EQ(error_of(map({entry("rammp", scalar("1"))})),
             "s.yaml:1:3: unknown kind of field 'rammp'; did you mean 'ramp'?");
   EXPECT_EQ(error_of(map({})),
-            "s.yaml:1:2: expected map, ramp, noise, attribute or product, got an empty block");
+            "s.yaml:1:2: expected a kind of field, such as map, ramp or noise, got an empty block");
   EXPECT_EQ(error_of(map({entry("map", scalar("f.png")), entry("chanel", scalar("r"))})),
             "s.yaml:1:3: unknown key 'chanel' in map field; did you mean 'channel'?");
   EXPECT_EQ(error_of(map({entry("map", scalar("f.png")), entry("channel", scalar("x", 7))})),
@@ -234,8 +234,13 @@ TEST(Field, ChecksKnots) {
 TEST(Field, ManualListsItsBlocks) {
   std::vector<std::string> names;
   for (const SchemaInfo* block : ValueReader<Field>::blocks()) names.push_back(block->name());
-  EXPECT_EQ(names, (std::vector<std::string>{"map field", "ramp field", "noise field", "attribute field",
-                                             "product field"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "map field",    "ramp field",      "noise field",  "attribute field", "product field",
+                "add field",    "min field",       "max field",    "mix field",       "invert field",
+                "clamp field",  "threshold field", "step field",   "remap field",     "box field",
+                "sphere field", "distance field",  "height field", "slope field",     "vertex_color field",
+                "group field",  "curvature field", "region field"}));
 }
 
 }  // namespace

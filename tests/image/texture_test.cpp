@@ -8,7 +8,8 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "image/exr.h"
-#include "image/field_nodes.h"
+#include "image/field_operations.h"
+#include "image/map_field.h"
 #include "image/texture_library.h"
 #include "tests/support/data.h"
 

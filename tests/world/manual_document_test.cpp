@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "world/regions.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -52,11 +53,12 @@ TEST(ManualDocument, EveryExampleIsRead) {
     Value document = parse_document(text, "example");
     SceneDescription scene;
     Problems problems;
+    std::set<const SchemaInfo*> visited;
+    visit(document, root, visited);
+    expand_regions(document, problems);
     SceneDescription::schema().read(document, scene, problems);
     for (const Problem& problem : problems.list())
       ADD_FAILURE() << to_string(problem.position) << ": " << problem.message;
-    std::set<const SchemaInfo*> visited;
-    visit(document, root, visited);
     EXPECT_TRUE(visited.contains(table));
   }
 }

@@ -36,6 +36,7 @@ characters:
     std::map<std::string, Assets::Skin> skins;
     skins["mapped"].cage.uv = uv_;
     skins["mapped"].cage.face_uv = {0, 1, 2};
+    skins["mapped"].cage.face_sizes = {3};
     skins["cube"];
     Refusal refusal;
     try {
@@ -116,6 +117,27 @@ TEST_F(MapCheckTest, WarnsOnceWhereAMapEnds) {
   ASSERT_EQ(progress_.lines.size(), 1u);
   for (const char* part : {"scene.yaml:6:", "map spots.png", "skin 'mapped'", "(0, 0) to (3, 0.5)", "UDIM"})
     EXPECT_NE(progress_.lines[0].find(part), std::string::npos) << progress_.lines[0];
+}
+
+TEST_F(MapCheckTest, AProjectionNeedsNoTextureCoordinates) {
+  const std::string map = "{map: spots.png, projection: triplanar}";
+  EXPECT_EQ(refusal("skin: cube, strands: 9, density: " + map, map, map).lines, Lines{});
+  EXPECT_NE(refusal("skin: cube, strands: 9", "{map: spots.png}").text.find("give the map a `projection`"),
+            std::string::npos);
+}
+
+TEST_F(MapCheckTest, EveryTileOfTheSkinExists) {
+  const std::string map = "{map: spots.<UDIM>.png}";
+  files_.write("spots.1001.png", "");
+  EXPECT_EQ(refusal("skin: mapped, strands: 9, density: " + map, map, map).lines, Lines{});
+  uv_ = {{1, 1}, {2, 1}, {2, 2}};
+  const Refusal missing = refusal("skin: mapped, strands: 9", map);
+  EXPECT_EQ(missing.lines, Lines{6});
+  for (const char* part : {"spots.<UDIM>.png has no tile 1012", "skin 'mapped'", "spots.1012.png"})
+    EXPECT_NE(missing.text.find(part), std::string::npos) << missing.text;
+  uv_ = {{-1, 0}, {-2, 0}, {-2, 1}};
+  EXPECT_NE(refusal("skin: mapped, strands: 9", map).text.find("outside all UDIM tiles"), std::string::npos);
+  EXPECT_TRUE(progress_.lines.empty()) << "tiles have no border";
 }
 
 TEST_F(MapCheckTest, StrandsOnNoSkinHaveNone) {

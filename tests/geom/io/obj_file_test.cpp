@@ -39,6 +39,19 @@ std::vector<std::string> problems_of(const std::string& contents) {
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
+TEST(ObjFile, ReadsColorsObjectsAndMaterials) {
+  const ControlMesh mesh = read_text(
+      "v 0 0 0\nv 1 0 0 0.1 0.2 0.3\nv 1 1 0 0.9\nv 0 1 0 1 0 0.5\n"
+      "f 1 2 3\no body\nf 1 2 4\nusemtl skin\ng ears\nf 2 3 4\no tail\nf 1 3 4\n");
+  EXPECT_EQ(mesh.colors, (std::vector<Rgb>{Rgb(1), Rgb(0.1f, 0.2f, 0.3f), Rgb(1), Rgb(1, 0, 0.5f)}));
+  EXPECT_EQ(mesh.objects.names, (std::vector<std::string>{"", "body", "tail"}));
+  EXPECT_EQ(mesh.objects.faces, (std::vector<uint16_t>{0, 1, 1, 2}));
+  EXPECT_EQ(mesh.materials.names, (std::vector<std::string>{"", "skin"}));
+  EXPECT_EQ(mesh.materials.faces, (std::vector<uint16_t>{0, 0, 1, 1}));
+  EXPECT_TRUE(read_text(kTriangle + "f 1 2 3\n").colors.empty());
+  EXPECT_EQ(problems_of("v 0 0 0 1 x 0\n" + kTriangle + "f 1 2 3\n").size(), 1u);
+}
+
 TEST(ObjFile, ReadsWhatItIsFor) {
   const ControlMesh mesh = read_text(
       "# a comment\r\n"

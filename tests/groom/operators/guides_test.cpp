@@ -149,7 +149,7 @@ TEST_F(GuidesTest, SpreadKeepsFolliclesNearGuides) {
   EXPECT_TRUE(op.traits().restricts_coverage);
   FollicleOptions options;
   options.count = 1000;
-  options.coverage = [&op](const V3f& at, const V3f& normal) { return op.coverage(at, normal); };
+  options.coverage = [&op](const FieldPoint& root) { return op.coverage(root); };
   const FollicleTree tree = FollicleTree::build(*rest_, options, job_);
   ASSERT_EQ(tree.size(), 1000u);
   for (size_t f = 0; f < tree.size(); ++f) {

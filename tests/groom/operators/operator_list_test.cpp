@@ -47,11 +47,14 @@ TEST(OperatorList, NamesTheNearestOperatorAndKey) {
   EXPECT_NE(message_of("- clump: {spacing: 0}\n").find("scene.yaml:2:"), std::string::npos);
   EXPECT_NE(message_of("- length: {value: -1}\n").find("scene.yaml:2:"), std::string::npos);
   EXPECT_NE(message_of("- guides: {}\n").find("file"), std::string::npos);
+  EXPECT_EQ(message_of("- length: {value: 1, maks: 0.5}\n"),
+            "scene.yaml:2:24: unknown key 'maks' in length; did you mean 'mask'?");
+  EXPECT_NE(message_of("- length: {value: 1, mask: 2}\n").find("scene.yaml:2:30: "), std::string::npos);
 }
 
 TEST(OperatorList, EveryOperatorIsInTheManual) {
   const std::vector<const SchemaInfo*> blocks = ValueReader<OperatorList>::blocks();
-  EXPECT_EQ(blocks.size(), 11u);
+  EXPECT_EQ(blocks.size(), 12u);  // the operators, and the key `mask` of each
   for (const SchemaInfo* block : blocks) {
     EXPECT_FALSE(block->help().empty());
     for (const KeyInfo& key : block->keys())
