@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "base/error.h"
@@ -91,11 +92,53 @@ std::set<double> key_frames(const CameraParams& camera) {
   return frames;
 }
 
-/// The greatest distance of a strand's point from its root, on a part of a character.
-float reach_of(const PartParams& part, const CharacterPose& pose, const Assets& assets) {
-  float reach = 0;
-  for (const auto& groom : part.grooms.items) reach = std::max(reach, assets.grooms.at(groom.name)->reach());
-  return reach * std::abs(pose.scale) * std::max(1.0f, pose.length);
+/// How far strands extend: above the skin at their roots, and the points of strands that a still skin
+/// carries.
+struct FurExtent {
+  float height = 0;
+  std::vector<V3f> points;  // rest space
+};
+
+/// Measures a few thousand strands of a coat on its skin at rest. Bounds of all strands are much larger than
+/// a combed coat: the picture would have wide borders.
+void measure_fur(const Groom& groom, const LimitSurface& rest, FurExtent& extent) {
+  constexpr size_t kStrands = 3000, kLeaves = 256;
+  const auto leaves = groom.follicles().leaves();
+  PosedSkin pose;
+  pose.keys = {&rest, 1};
+  const size_t step = leaves.size() / kLeaves + 1;
+  const size_t wanted = std::max<size_t>(8, kStrands * step / std::max<size_t>(1, leaves.size()));
+  for (size_t leaf = 0; leaf < leaves.size(); leaf += step) {
+    std::vector<uint32_t> some(std::min<size_t>(wanted, leaves[leaf].end - leaves[leaf].begin));
+    std::iota(some.begin(), some.end(), 0u);
+    const std::vector<float> widths(some.size(), 1.0f);
+    const KeptStrands kept{some, widths, {}};
+    const Strands strands = groom.grow(leaf, pose, &kept);
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      const SurfacePoint root = groom.root(leaves[leaf].begin + s, pose, 0);
+      const V3f normal = LimitSurface::frame_of(root).normal;
+      for (size_t i = strands.first_point(s); i < strands.first_point(s + 1); ++i) {
+        const V3f point = strands.point(i);
+        extent.height = std::max(extent.height, (point - root.position).dot(normal) + strands.radius(i));
+        extent.points.push_back(point);
+      }
+    }
+  }
+}
+
+FurExtent fur_extent(const PartParams& part, const CharacterPose& pose, const Assets& assets) {
+  const LimitSurface& rest = *assets.skins.at(part.skin.name).rest;
+  FurExtent extent;
+  for (const auto& item : part.grooms.items) {
+    const Groom& groom = *assets.grooms.at(item.name);
+    if (groom.grows_on_skin() && !groom.needs_closest_point()) {
+      measure_fur(groom, rest, extent);
+    } else {
+      extent.height = std::max(extent.height, groom.reach());
+    }
+  }
+  extent.height *= std::abs(pose.scale) * std::max(1.0f, pose.length);
+  return extent;
 }
 
 void add_surface(const LimitSurface& surface, const M44f& to_world, float radius,
@@ -120,7 +163,8 @@ void add_part(const FrameCharacter& character, size_t index, const Assets& asset
   const PartParams& part = character.params->parts[index];
   const Assets::Skin& skin = assets.skins.at(part.skin.name);
   const CharacterPose pose = pose_character(character, index, assets, CameraParams(), frame);
-  const float radius = reach_of(part, pose, assets);
+  const FurExtent fur = fur_extent(part, pose, assets);
+  const float radius = fur.height;
   if (character.member) {  // one of many: the corners of its box are near enough
     const Box3f box = approximate_box(character, index, assets, frame);
     for (int i = 0; i < 8; ++i)
@@ -134,7 +178,9 @@ void add_part(const FrameCharacter& character, size_t index, const Assets& asset
                 "the pose of skin " + quote(part.skin.name) + " that the camera frames");
     add_surface(LimitSurface(pose.topology, pose.shutter.cages.front()), M44f(), radius, balls);
   } else {
-    add_surface(*skin.rest, pose.shutter.transforms.front(), radius, balls);
+    const M44f& to_world = pose.shutter.transforms.front();
+    add_surface(*skin.rest, to_world, radius, balls);
+    for (const V3f& point : fur.points) balls.push_back({point * to_world, 0});
   }
 }
 

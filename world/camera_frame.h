@@ -14,7 +14,7 @@ namespace pelage {
 /// The name in `camera.frame` that means all characters.
 inline constexpr const char* kFrameAll = "all";
 
-/// A ball that the picture must contain: a point of a skin, with the reach of the fur around it.
+/// A ball that the picture must contain: a point of a skin, with the height of the fur above it.
 struct FramedBall {
   V3f center{0};  ///< world space
   float radius = 0;
@@ -22,10 +22,10 @@ struct FramedBall {
 
 /// Returns the camera of a scene. Without `camera.frame`, this is `scene.camera`. Otherwise, the camera keeps
 /// its direction, its up vector and its field of view, and is moved to the place where everything that
-/// `frame` names fits into the picture with a margin of 5 % of its width or height, skins and the max reach
-/// of their strands. The subject is in its pose at `scene.framed_at`, whichever frames are rendered. If the
-/// direction or the field of view has keys, the camera is placed for each key. An orthographic camera gets
-/// the height that fits. The result has no `frame`.
+/// `frame` names fits into the picture with a margin of 5 % of its width or height: skins and their fur, of
+/// which a few thousand strands are measured. The subject is in its pose at `scene.framed_at`, whichever
+/// frames are rendered. If the direction or the field of view has keys, the camera is placed for each key. An
+/// orthographic camera gets the height that fits. The result has no `frame`.
 ///
 /// Throws Error: kInput if no visible character shows what `frame` names, kMemory if a pose does not fit.
 CameraParams placed_camera(const SceneDescription& scene, const Assets& assets, const Job& job);

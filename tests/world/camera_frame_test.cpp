@@ -79,9 +79,9 @@ TEST_F(CameraFrame, TheWholeCoatFillsThePictureAtAnySizeAndAspectRatio) {
           1);
       const Taken taken = taken_by(world, "walker.coat");
       SCOPED_TRACE(fmt::format("{} {}", scale, width));
-      // Strands may be shorter than their reach and stand in other directions, so the real margin is larger.
-      EXPECT_GE(taken.smallest_margin(), 0.0499f);
-      EXPECT_GE(taken.widest(), 0.75f);
+      // Only a sample of the strands is measured, so the margin may be a little smaller.
+      EXPECT_GE(taken.smallest_margin(), 0.045f);
+      EXPECT_GE(taken.widest(), 0.86f);
     }
   }
 }
@@ -112,16 +112,16 @@ TEST_F(CameraFrame, ThePoseIsThatOfTheFirstFrameOfTheFile) {
 TEST_F(CameraFrame, SkinsCharactersAndAllCanBeFramed) {
   EXPECT_GE(taken_by(composed(framed("still"), 1), "post.whiskers").widest(), 0.7f);
   const World all = composed(framed("all"), 1);
-  EXPECT_GE(taken_by(all, "post.whiskers").smallest_margin(), 0.0499f);
-  EXPECT_GE(taken_by(all, "walker.coat").smallest_margin(), 0.0499f);
+  EXPECT_GE(taken_by(all, "post.whiskers").smallest_margin(), 0.045f);
+  EXPECT_GE(taken_by(all, "walker.coat").smallest_margin(), 0.045f);
 }
 
 TEST_F(CameraFrame, ParallelLinesOfSightGetTheHeightThatFits) {
   for (const char* width : {"48", "8"}) {
     const Taken taken = taken_by(
         composed(framed("walker", {{"camera.orthographic", "1"}, {"image.width", width}}), 1), "walker.coat");
-    EXPECT_GE(taken.smallest_margin(), 0.0499f);
-    EXPECT_GE(taken.widest(), 0.75f);
+    EXPECT_GE(taken.smallest_margin(), 0.045f);
+    EXPECT_GE(taken.widest(), 0.8f);
   }
 }
 
