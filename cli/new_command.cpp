@@ -23,7 +23,7 @@ std::optional<AxisDirection> axis_of(const std::string& flag, const std::string&
   return axis;
 }
 
-void check_output(const Options& options, const std::filesystem::path& scene) {
+void check_new_output(const Options& options, const std::filesystem::path& scene) {
   const std::string kind = lower_extension(scene);
   if (kind != ".yaml" && kind != ".yml")
     throw Error(ErrorKind::kArguments, "-o " + scene.string() + ": scene files are named .yaml");
@@ -43,7 +43,7 @@ std::string path_from(const std::filesystem::path& scene, const std::filesystem:
 
 int run_new(const Options& options) {
   const std::filesystem::path scene = options.output;
-  check_output(options, scene);
+  check_new_output(options, scene);
   const std::optional<AxisDirection> up = axis_of("--up", options.starter.up);
   const std::optional<AxisDirection> facing = axis_of("--facing", options.starter.facing);
   if (up && facing && up->axis == facing->axis)

@@ -158,8 +158,8 @@ void add_surface(const LimitSurface& surface, const M44f& to_world, float radius
   }
 }
 
-void add_part(const FrameCharacter& character, size_t index, const Assets& assets, double frame,
-              const Job& job, std::vector<FramedBall>& balls) {
+void add_framed_part(const FrameCharacter& character, size_t index, const Assets& assets, double frame,
+                     const Job& job, std::vector<FramedBall>& balls) {
   const PartParams& part = character.params->parts[index];
   const Assets::Skin& skin = assets.skins.at(part.skin.name);
   const CharacterPose pose = pose_character(character, index, assets, CameraParams(), frame);
@@ -192,7 +192,7 @@ std::vector<FramedBall> framed_balls(const SceneDescription& scene, const Assets
     const bool whole = wanted.name == kFrameAll || character.prototype == wanted.name;
     for (size_t part = 0; part < character.params->parts.size(); ++part) {
       if (whole || character.params->parts[part].skin.name == wanted.name)
-        add_part(character, part, assets, scene.framed_at, job, balls);
+        add_framed_part(character, part, assets, scene.framed_at, job, balls);
     }
   }
   if (balls.empty())

@@ -34,7 +34,7 @@ TEST(StarterScene, ABodyThatFacesBackwardsIsCombedAndSeenFromThere) {
 }
 
 TEST(StarterScene, MoreStrandsAreThinner) {
-  EXPECT_TRUE(has(starter_scene_text(starter(1, 250000)), "width: {root: 0.00635,"))
+  EXPECT_TRUE(has(starter_scene_text(starter(1, 250000)), "width: {root: 0.00634,"))
       << starter_scene_text(starter(1));
   EXPECT_TRUE(has(starter_scene_text(starter(1, 500000)), "width: {root: 0.00317,"));
 }
