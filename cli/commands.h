@@ -8,6 +8,7 @@ namespace pelage {
 // One function per command, each in its own source file. Each function returns the exit code of the process.
 // It throws Error for mistakes of the user and failures of the system.
 
+int run_new(const Options& options);
 int run_render(const Options& options);
 int run_grow(const Options& options);
 int run_info(const Options& options);

@@ -15,7 +15,7 @@ namespace pelage {
 
 std::string describe_scene(const SceneDescription& scene);
 std::string describe_strands(const StrandFile& file);
-std::string describe_mesh(const ControlMesh& mesh);
+std::string describe_mesh(const ControlMesh& mesh, const std::string& source);
 std::string describe_exr(const ExrImage& image);
 std::string describe_cache(const StoredFile& file);
 

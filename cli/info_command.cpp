@@ -23,7 +23,7 @@ std::string describe_file(const Options& options) {
   if (kind == ".hair" || kind == ".tfx") {
     return describe_strands(read_strands(path, {options.basis, options.default_width}));
   }
-  if (kind == ".obj") return describe_mesh(read_obj(path));
+  if (kind == ".obj") return describe_mesh(read_obj(path), options.input);
   if (kind == ".exr") return describe_exr(read_exr(path));
   if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},

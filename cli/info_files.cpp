@@ -9,6 +9,7 @@
 #include "base/value_readers.h"
 #include "cli/info.h"
 #include "groom/strands/curve_basis_names.h"
+#include "starter/body_shape.h"
 
 namespace pelage {
 namespace {
@@ -95,7 +96,27 @@ std::string describe_strands(const StrandFile& file) {
   return text + fmt::format("  repaired: {}, dropped: {}\n", file.repairs.repaired, file.repairs.dropped);
 }
 
-std::string describe_mesh(const ControlMesh& mesh) {
+namespace {
+
+/// What `pelage new` would make of a mesh.
+std::string describe_body(const ControlMesh& mesh, const std::string& source) try {
+  const BodyShape shape = body_shape(mesh, source);
+  const V3f size = shape.box.size();
+  const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return fmt::format(
+      "  size: {:.4g} x {:.4g} x {:.4g}, longest along {}\n"
+      "  suggested: facing {}, up {}, scheme {}, meters_per_unit {:g}\n"
+      "  doubled faces: {}\n"
+      "  texture coordinates: {}\n",
+      size.x, size.y, size.z, "xyz"[longest], shape.facing.name(), shape.up.name(), shown(shape.scheme),
+      shape.meters_per_unit, shape.doubled_faces, mesh.face_uv.empty() ? "no" : "yes");
+} catch (const Error& error) {
+  return fmt::format("  not a body: {}\n", error.what());
+}
+
+}  // namespace
+
+std::string describe_mesh(const ControlMesh& mesh, const std::string& source) {
   Box3f box;
   for (const V3f& position : mesh.positions) box.extendBy(position);
   std::string text = fmt::format("mesh, {} faces, {} vertices, {} texture coordinates\n", mesh.face_count(),
@@ -104,6 +125,7 @@ std::string describe_mesh(const ControlMesh& mesh) {
   for (const uint32_t size : mesh.face_sizes) ++sizes[size];
   for (const auto& [size, count] : sizes) text += fmt::format("  {} faces with {} corners\n", count, size);
   text += fmt::format("  bounds: {}\n", shown_box(box));
+  text += describe_body(mesh, source);
   text += fmt::format("  creases: {}, corners: {}, holes: {}\n", mesh.creases.size(), mesh.corners.size(),
                       mesh.holes.size());
   for (const std::string& group : mesh.groups) text += fmt::format("  group {}\n", printable(group));

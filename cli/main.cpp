@@ -12,6 +12,8 @@ namespace {
 int run(const pelage::Options& options) {
   using pelage::Command;
   switch (options.command) {
+    case Command::kNew:
+      return pelage::run_new(options);
     case Command::kRender:
       return pelage::run_render(options);
     case Command::kGrow:

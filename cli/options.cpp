@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/format.h>
 
 #include "base/nearest_name.h"
 #include "cli/command_line.h"
@@ -16,6 +17,7 @@
 #include "cli/post_flags.h"
 #include "cli/rib_flags.h"
 #include "groom/strands/curve_basis_names.h"
+#include "starter/coat_look.h"
 
 namespace pelage {
 namespace {
@@ -193,7 +195,35 @@ void add_manual(CLI::App& app, Options& options, Texts& texts) {
   manual->add_flag("--markdown", options.markdown, "Write Markdown");
 }
 
+void add_new(CLI::App& app, Options& options) {
+  std::string presets;
+  for (const CoatLook& look : coat_looks())
+    presets += fmt::format("{}{} ({})", presets.empty() ? "" : ", ", look.name, look.help);
+  CLI::App* command = app.add_subcommand(
+      "new", "Write a first scene for a mesh: a coat, lights and a camera that suit its size and axes");
+  command->add_option("MESH", options.input, "OBJ file of the animal")->required();
+  command->add_option("-o,--output", options.output, "Scene file to write")
+      ->required()
+      ->type_name("FUR.yaml");
+  command->add_option("--preset", options.starter.preset, "Coat: " + presets + " (default: the first)")
+      ->type_name("NAME");
+  command
+      ->add_option("--facing", options.starter.facing,
+                   "Where the head is: x, -x, y, -y, z or -z (default: guessed from the mesh)")
+      ->type_name("AXIS");
+  command->add_option("--up", options.starter.up, "Where the back or the top is (default: guessed, mostly y)")
+      ->type_name("AXIS");
+  command->add_option("--strands", options.starter.strands, "Number of strands (default: the preset's)")
+      ->check(CLI::Range(1, 500'000'000))
+      ->type_name("N");
+  command->add_flag("--force", options.starter.force, "Replace an existing scene file");
+  command->footer(
+      "Example:\n  pelage new cow.obj -o fur.yaml --preset long\n  pelage render fur.yaml -o fur.png "
+      "--preview");
+}
+
 void add_commands(CLI::App& app, Options& options, Texts& texts) {
+  add_new(app, options);
   add_render(app, options, texts);
   add_view(app, options, texts);
   add_why(app, options, texts);
@@ -209,12 +239,20 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{
-      {"render", Command::kRender}, {"view", Command::kView},       {"why", Command::kWhy},
-      {"grow", Command::kGrow},     {"info", Command::kInfo},       {"merge", Command::kMerge},
-      {"farm", Command::kFarm},     {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
-      {"stereo", Command::kStereo}, {"rib", Command::kRib},         {"procedural", Command::kProcedural},
-      {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{{"new", Command::kNew},
+                                                    {"render", Command::kRender},
+                                                    {"view", Command::kView},
+                                                    {"why", Command::kWhy},
+                                                    {"grow", Command::kGrow},
+                                                    {"info", Command::kInfo},
+                                                    {"merge", Command::kMerge},
+                                                    {"farm", Command::kFarm},
+                                                    {"convert", Command::kConvert},
+                                                    {"motionblur", Command::kMotionBlur},
+                                                    {"stereo", Command::kStereo},
+                                                    {"rib", Command::kRib},
+                                                    {"procedural", Command::kProcedural},
+                                                    {"manual", Command::kManual}};
   return names;
 }
 

@@ -20,6 +20,7 @@
 namespace pelage {
 
 enum class Command {
+  kNew,
   kRender,
   kView,
   kWhy,
@@ -33,6 +34,13 @@ enum class Command {
   kRib,
   kProcedural,
   kManual
+};
+
+/// Flags of `new`. Empty texts and 0: not given.
+struct StarterOptions {
+  std::string preset, facing, up;
+  int strands = 0;
+  bool force = false;  ///< replace an existing scene
 };
 
 /// The whole command line. Each command reads only the members that concern it; the other members keep their
@@ -59,6 +67,8 @@ struct Options : RunOptions {
 
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
+
+  StarterOptions starter;  ///< new: its flags
 
   RibOptions rib;    ///< rib, procedural: their flags
   FarmOptions farm;  ///< farm: its flags

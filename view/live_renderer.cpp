@@ -225,6 +225,13 @@ void LiveRenderer::load(const SceneEdit& edit, Redo redo, const Job& job) {
   progress_.begin("pose", 1);
   const double frame = edit.scene.frames.frames.front();
   loaded_->world = std::make_unique<World>(compose(edit.scene, loaded_->assets, frame, job));
+  if (!edit.scene.camera.frame.name.empty()) {  // only now is the place of the camera known
+    const CameraParams& camera = loaded_->world->camera;
+    state_.update([&](ViewStatus& status) {
+      status.camera.position = camera.position.at(frame);
+      status.camera.look_at = camera.look_at.at(frame);
+    });
+  }
   loaded_->assets.textures.forget_unused();
   progress_.end();
 }

@@ -65,6 +65,13 @@ SceneDescription SceneFollower::load_shown() {
   camera_ = state_.control().camera();
   const bool changed = own != own_camera_;
   const bool written = changed && state_.control().take_written();
+  const bool framed = !scene.camera.frame.name.empty();
+  if (written && framed) {
+    state_.update([](ViewStatus& status) {
+      status.camera_note =
+          "only the direction was kept: `frame` places the camera of the scene; remove it to keep the rest";
+    });
+  }
   if (camera_ && changed && !written) {
     camera_ = std::nullopt;
     state_.control().set_camera({});
@@ -89,6 +96,7 @@ SceneDescription SceneFollower::load_shown() {
   if (frame_) chosen.push_back({"frames", std::to_string(frame)});
   if (camera_) {
     for (Override& override : camera_overrides(*camera_)) chosen.push_back(std::move(override));
+    if (framed) chosen.push_back({"camera.frame", "null"});
   }
   return camera_ || frame_ ? load_scene(path_, chosen) : std::move(scene);
 }

@@ -11,6 +11,7 @@
 #include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"
 #include "world/archives.h"
+#include "world/camera_frame.h"
 #include "world/frame_characters.h"
 #include "world/scene_origin.h"
 
@@ -149,13 +150,15 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
               CoordinateOrigin from) {
   const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
-  const V3f origin =
-      from == CoordinateOrigin::kNearCoats ? scene_origin(scene, assets, characters, frame, job) : V3f(0);
+  const CameraParams camera = placed_camera(scene, assets, job);
+  const V3f origin = from == CoordinateOrigin::kNearCoats
+                         ? scene_origin(scene, assets, characters, camera.position.at(frame), frame, job)
+                         : V3f(0);
   World world{{{},
                {},
                assets.materials,
                make_lights(scene, assets, frame, job, origin),
-               Camera(scene.camera, frame, scene.image.width, scene.image.height, origin),
+               Camera(camera, frame, scene.image.width, scene.image.height, origin),
                scene.image,
                scene.render,
                origin},
@@ -164,7 +167,8 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               header_of(scene, frame),
-              {}};
+              {},
+              camera};
   Composer(scene, assets, frame, job, world).add_all(characters);
   for (const auto& archive : scene.archives.items) {
     load_archive(scene, archive.name, archive.value, frame, job, origin, assets.archives[archive.name]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "procedurals/detail/detail_policy.h"
+#include "world/camera_frame.h"
 #include "world/frame_characters.h"
 
 namespace pelage {
@@ -11,11 +12,12 @@ namespace {
 
 class FramePoser {
  public:
-  FramePoser(const SceneDescription& scene, const Assets& assets, double frame, const Job& job)
+  FramePoser(const SceneDescription& scene, const Assets& assets, const CameraParams& camera, double frame,
+             const Job& job)
       : scene_(scene),
         assets_(assets),
         frame_(frame),
-        camera_(scene.camera, frame, scene.image.width, scene.image.height),
+        camera_(camera, frame, scene.image.width, scene.image.height),
         lod_view_(lod_view()),
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
@@ -94,8 +96,9 @@ Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, 
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
                       const std::set<std::string>& only) {
   const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
-  FramePoser poser(scene, assets, frame, job);
   FrameParts parts;
+  parts.camera = placed_camera(scene, assets, job);
+  FramePoser poser(scene, assets, parts.camera, frame, job);
   for (const FrameCharacter& character : characters) {
     job.check_stop();
     if (only.empty() || only.contains(character.name)) poser.add(character, scene.render.lod.enabled, parts);

@@ -46,6 +46,7 @@ struct FrameCoat {
 struct FrameParts {
   std::vector<FrameSkin> skins;
   std::vector<FrameCoat> coats;
+  CameraParams camera;  ///< placed_camera()
 };
 
 /// Poses the characters of a frame like compose(), but without materials and lights. `only`: the names of

@@ -15,6 +15,7 @@
 #include "scene/overrides.h"
 #include "scene/renamed_keys.h"
 #include "world/asset_files.h"
+#include "world/camera_frame.h"
 #include "world/leaf_sizes.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"
@@ -115,6 +116,21 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
 }
 
+// Checks the names in `camera.frame`.
+void check_frame(const SceneDescription& scene, Problems& problems) {
+  const NameReference& frame = scene.camera.frame;
+  std::vector<std::string> names = scene.characters.names();
+  for (std::string& skin : scene.skins.names()) names.push_back(std::move(skin));
+  names.emplace_back(kFrameAll);
+  if (!frame.name.empty() && std::find(names.begin(), names.end(), frame.name) == names.end()) {
+    problems.add(frame.position, "there is no skin or character " + quote(frame.name) + " to frame" +
+                                     suggest(frame.name, names));
+  }
+  const std::optional<CameraParams>& detail = scene.render.lod.camera.own;
+  if (detail && !detail->frame.name.empty())
+    problems.add(detail->frame.position, "the camera of `lod` cannot `frame`; give its `position`");
+}
+
 }  // namespace
 
 void check_references(const SceneDescription& scene, Problems& problems) {
@@ -138,6 +154,7 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     }
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
+  check_frame(scene, problems);
   for (const auto& archive : scene.archives.items) {
     for (const auto& material : archive.value.materials.items)
       check_name(material.value, "material", scene.materials, problems);
@@ -291,6 +308,25 @@ std::vector<std::filesystem::path> files_of(const Value& document, const std::fi
   return {files.begin(), files.end()};
 }
 
+/// Completes a camera with `frame`: its default direction, and the frame of the pose. Overrides of `frames`
+/// do not count, because every machine of a farm renders other frames with the same camera.
+void complete_frame(const std::filesystem::path& path, std::vector<Override> overrides, const Value& document,
+                    SceneDescription& scene) {
+  CameraParams& camera = scene.camera;
+  if (camera.frame.name.empty()) return;
+  const Value& block = *document.find("camera");
+  if (!block.find("position") && !block.find("look_at")) camera.position = default_view(camera.up.at(1));
+  scene.framed_at = scene.frames.frames.front();
+  const auto removed = std::erase_if(overrides, [](const Override& o) { return o.key == "frames"; });
+  if (removed == 0 || scene.from_rib) return;
+  Problems ignored;  // they are known
+  const std::optional<Value> file = load_document(path, overrides, ignored);
+  const Value* frames = file ? file->find("frames") : nullptr;
+  FrameList list;
+  if (!frames || ValueReader<FrameList>::read(*frames, {}, list, ignored))
+    scene.framed_at = list.frames.front();
+}
+
 }  // namespace
 
 std::optional<std::string> why_dark(const SceneDescription& scene) {
@@ -329,6 +365,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);
+      complete_frame(path, overrides, *document, scene);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

@@ -39,9 +39,8 @@ struct Coat {
   }
 };
 
-std::optional<Coat> nearest_coat(const SceneDescription& scene, const Assets& assets,
-                                 const std::vector<FrameCharacter>& characters, double frame) {
-  const V3f eye = scene.camera.position.at(frame);
+std::optional<Coat> nearest_coat(const Assets& assets, const std::vector<FrameCharacter>& characters,
+                                 const V3f& eye, double frame) {
   std::optional<Coat> nearest;
   float min = std::numeric_limits<float>::infinity();
   for (const FrameCharacter& character : characters) {
@@ -68,8 +67,8 @@ V3f origin_near(const V3f& coat, float width) {
 }
 
 /// Returns the origin for the strands of RIB files, which are read for it.
-V3f archive_origin(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
-  const V3f eye = scene.camera.position.at(frame);
+V3f archive_origin(const SceneDescription& scene, Assets& assets, const V3f& eye, double frame,
+                   const Job& job) {
   StrandScale nearest;
   float min = std::numeric_limits<float>::infinity();
   for (const auto& [name, position, params] : scene.archives.items) {
@@ -90,9 +89,9 @@ V3f archive_origin(const SceneDescription& scene, Assets& assets, double frame, 
 }  // namespace
 
 V3f scene_origin(const SceneDescription& scene, Assets& assets, const std::vector<FrameCharacter>& characters,
-                 double frame, const Job& job) {
-  const std::optional<Coat> coat = nearest_coat(scene, assets, characters, frame);
-  if (!coat) return archive_origin(scene, assets, frame, job);
+                 const V3f& eye, double frame, const Job& job) {
+  const std::optional<Coat> coat = nearest_coat(assets, characters, eye, frame);
+  if (!coat) return archive_origin(scene, assets, eye, frame, job);
   float width = std::numeric_limits<float>::infinity();
   for (const auto& groom : coat->params().grooms.items)
     width = std::min(width, assets.grooms.at(groom.name)->width() * coat->scale(frame));
@@ -102,7 +101,7 @@ V3f scene_origin(const SceneDescription& scene, Assets& assets, const std::vecto
 std::optional<std::string> coarse_position(const SceneDescription& scene, const Assets& assets,
                                            double frame) {
   const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
-  const std::optional<Coat> coat = nearest_coat(scene, assets, characters, frame);
+  const std::optional<Coat> coat = nearest_coat(assets, characters, scene.camera.position.at(frame), frame);
   if (!coat) return {};
   const std::string& skin = coat->params().skin.name;
   const float in_file = largest(assets.skins.at(skin).rest->control_bounds()) * coat->scale(frame);

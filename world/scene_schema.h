@@ -107,7 +107,9 @@ struct SceneDescription {
   FormatVersion pelage;
   UnitsParams units;
   FrameList frames;
-  CameraParams camera;
+  CameraParams camera;  ///< as written; placed_camera() applies `frame`
+  double framed_at =
+      1;  ///< frame whose pose `camera.frame` fits: the first one of the file, not of overrides
   ImageParams image;
   Named<Field> regions;  ///< load_scene() has put them in the places of their names (world/regions.h)
   Named<SkinParams> skins;

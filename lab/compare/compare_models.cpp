@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "lab/compare/light_side.h"
 #include "render/fibre/fibre_material.h"
+#include "world/camera_frame.h"
 
 namespace pelage {
 namespace {
@@ -86,14 +87,17 @@ void compare_model(const std::string& model, const SceneDescription& scene, cons
 Comparison compare_models(const SceneDescription& scene, Assets& assets,
                           const std::vector<std::string>& models, const std::filesystem::path& folder,
                           const Job& job) {
+  SceneDescription placed = scene;
+  placed.camera = placed_camera(scene, assets, job);  // from which light is directed
   ModelMaterials materials(assets.materials, folder / "tables", job);
-  FrameComparer comparer(scene, assets, job);
+  FrameComparer comparer(placed, assets, job);
   Comparison comparison;
   // The furnace and the single fibre count as one picture each.
   const ProgressStage stage(job.progress, "compare",
                             static_cast<double>(models.size() * (kLightSides.size() + 2)));
   try {
-    for (const std::string& model : models) compare_model(model, scene, job, materials, comparer, comparison);
+    for (const std::string& model : models)
+      compare_model(model, placed, job, materials, comparer, comparison);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kStopped) throw;
   }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+
 namespace pelage {
 
 FrameList pan_frames(const SceneDescription& scene, int count) {
@@ -16,10 +18,17 @@ FrameList pan_frames(const SceneDescription& scene, int count) {
   return list;
 }
 
+void require_placed(const CameraParams& camera) {
+  if (camera.frame.name.empty()) return;
+  throw Error(ErrorKind::kInput, camera.frame.position,
+              "this experiment moves the camera: give its `position` and `look_at` instead of `frame`");
+}
+
 std::vector<std::pair<std::string, std::string>> camera_pan(const SceneDescription& scene, int count) {
   const FrameList list = pan_frames(scene, count);
   const int first = list.frames.front(), last = list.frames.back();
   const CameraParams& camera = scene.camera;
+  require_placed(camera);
   const V3d from(camera.position.at(first)), to(camera.look_at.at(first));
   const double height = camera.orthographic ? double{camera.orthographic->at(first)}
                                             : 2 * (to - from).length() *

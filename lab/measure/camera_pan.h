@@ -15,6 +15,9 @@ namespace pelage {
 /// scene.
 std::vector<std::pair<std::string, std::string>> camera_pan(const SceneDescription& scene, int count);
 
+/// Throws Error (kInput) if the camera has `frame`: moving it would change only the direction of the view.
+void require_placed(const CameraParams& camera);
+
 /// Returns the frames of camera_pan().
 FrameList pan_frames(const SceneDescription& scene, int count);
 

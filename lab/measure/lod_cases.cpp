@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "lab/measure/camera_pan.h"
+
 namespace pelage {
 namespace {
 
@@ -14,6 +16,7 @@ double frame_of(const SceneDescription& scene) { return scene.frames.frames.fron
 std::string text(const V3f& v) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z); }
 
 V3f away(const SceneDescription& scene, float factor) {
+  require_placed(scene.camera);
   const V3f to = scene.camera.look_at.at(frame_of(scene));
   return to + (scene.camera.position.at(frame_of(scene)) - to) * factor;
 }

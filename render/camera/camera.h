@@ -7,6 +7,7 @@
 
 #include "base/keyed.h"
 #include "base/schema.h"
+#include "base/value_readers.h"
 #include "base/vector.h"
 #include "geom/view.h"
 #include "lod/lod_view.h"
@@ -21,6 +22,9 @@ struct LensParams {
 };
 
 struct CameraParams {
+  /// What the picture shall show whole: a skin, a character or `all`. Position and target then give only the
+  /// direction of the view, and world/camera_frame.h places the camera. Empty: they are used as they are.
+  NameReference frame;
   Keyed<V3f> position{V3f(0, 0, 10)};
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};

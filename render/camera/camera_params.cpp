@@ -39,7 +39,16 @@ const Schema<CameraParams>& CameraParams::schema() {
   position: [0, 12, 60]
   look_at: [0, 9, 0]
   fov: 24
-  shutter: [-0.25, 0.25]   # a 180-degree shutter)");
+  shutter: [-0.25, 0.25]   # a 180-degree shutter
+# or: camera: {frame: rat, position: [1, 0.4, 1], fov: 24}   # the whole rat, from this direction)");
+    s.key(
+        "frame", &CameraParams::frame,
+        {.help = "Places the camera so that the picture shows this skin, this character or `all` characters "
+                 "whole, fur included, with a margin of 5 %. `position` and `look_at` then give only the "
+                 "direction of the view (default: three-quarter, from the front, the right and above); "
+                 "`fov` stays, and `orthographic` gets the height that fits. With keys, the camera is placed "
+                 "for each key. The pose is that at the first of the scene file's `frames`, whichever frames "
+                 "are rendered"});
     s.key("position", &CameraParams::position, {.unit = "scene units", .help = "Position of the camera"});
     s.key("look_at", &CameraParams::look_at,
           {.unit = "scene units", .help = "Target of the camera, at the centre of the image"});

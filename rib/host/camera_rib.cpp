@@ -34,8 +34,8 @@ void write_clipping(RibWriter& rib, const V3f& eye, const Box3f& content) {
   rib.request("Clipping").number(kNear * far_distance).number(far_distance);
 }
 
-void write_transform(RibWriter& rib, const SceneDescription& scene, double frame) {
-  const CameraParams& camera = scene.camera;
+void write_transform(RibWriter& rib, const SceneDescription& scene, const CameraParams& camera,
+                     double frame) {
   std::vector<float> times{0};
   if (moves(camera)) {
     times = motion_times(camera, camera.motion_keys);
@@ -51,9 +51,8 @@ void write_transform(RibWriter& rib, const SceneDescription& scene, double frame
 
 }  // namespace
 
-void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, const Box3f& content,
-                  const std::string& picture) {
-  const CameraParams& camera = scene.camera;
+void write_camera(RibWriter& rib, const SceneDescription& scene, const CameraParams& camera, double frame,
+                  const Box3f& content, const std::string& picture) {
   const float aspect = static_cast<float>(scene.image.width) / static_cast<float>(scene.image.height);
   rib.request("Format").integer(scene.image.width).integer(scene.image.height).number(1);
   const V2f grid = sample_grid(scene.render.samples);
@@ -74,7 +73,7 @@ void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, c
   rib.request("Display").text(picture).text("exr").text("rgba");
   // Floats. Binary readers take 0 for an integer only if it is written as one.
   rib.request("Quantize").text("rgba").integer(0).integer(0).integer(0).number(0);
-  write_transform(rib, scene, frame);
+  write_transform(rib, scene, camera, frame);
 }
 
 }  // namespace pelage

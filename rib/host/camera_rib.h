@@ -14,8 +14,9 @@ namespace pelage {
 /// block if the camera moves. Times are in frames relative to the frame.
 ///
 /// `content`: a box around everything in the scene, for Clipping. `picture`: name of the EXR file for
-/// Display. The field of view is that at the time of the frame, because RI has no motion of Projection.
-void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, const Box3f& content,
-                  const std::string& picture);
+/// Display. `camera`: placed_camera() of the scene. The field of view is that at the time of the frame,
+/// because RI has no motion of Projection.
+void write_camera(RibWriter& rib, const SceneDescription& scene, const CameraParams& camera, double frame,
+                  const Box3f& content, const std::string& picture);
 
 }  // namespace pelage

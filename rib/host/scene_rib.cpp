@@ -109,7 +109,7 @@ class SceneRibWriter {
     std::string picture = stem_of(path);
     if (!has_frame_pattern(output_.filename().string()) && source_.scene.frames.frames.size() > 1)
       picture += fmt::format(".{:04}", frame);
-    write_camera(rib, source_.scene, frame, content_of(parts), picture + ".exr");
+    write_camera(rib, source_.scene, parts.camera, frame, content_of(parts), picture + ".exr");
     rib.request("WorldBegin");
     write_lights(rib, source_.scene, document_, frame);
     for (const FrameSkin& skin : parts.skins) write_skin_part(rib, skin);

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/camera_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "base/error.h"
+#include "base/memory_budget.h"
+#include "base/nearest_name.h"
+#include "world/frame_characters.h"
+
+namespace pelage {
+namespace {
+
+constexpr double kMargin = 0.05;  // of the width or height of the picture, on each side
+
+/// What a camera sees of balls, along one axis of the picture. Each of the two bounds is the largest of
+/// radius +- cos(angle) * offset - sin(angle) * depth, where `angle` is half the field of view: a plane
+/// through the eye and a border of the picture has all balls on its inner side if the eye is beyond the
+/// bound.
+struct SeenExtent {
+  double sine, cosine;
+  double upper = -std::numeric_limits<double>::infinity(), lower = upper;
+
+  explicit SeenExtent(double tangent)
+      : sine(tangent / std::hypot(1, tangent)), cosine(1 / std::hypot(1, tangent)) {}
+  void add(double offset, double depth, double radius) {
+    upper = std::max(upper, radius + cosine * offset - sine * depth);
+    lower = std::max(lower, radius - cosine * offset - sine * depth);
+  }
+  double depth() const { return -(upper + lower) / (2 * sine); }    // of the nearest eye from which both hold
+  double middle() const { return (upper - lower) / (2 * cosine); }  // of an eye between both
+};
+
+struct PictureAxes {
+  V3d right, up, forward;
+};
+
+struct PlacedEye {
+  V3d position, target;
+  double height = 0;  // of the picture of parallel lines of sight
+};
+
+PlacedEye perspective_eye(std::span<const FramedBall> balls, const PictureAxes& axes, double tangent,
+                          double aspect) {
+  SeenExtent wide(tangent * aspect), high(tangent);
+  double near = std::numeric_limits<double>::infinity(), far = -near;
+  for (const FramedBall& ball : balls) {
+    const V3d at(ball.center);
+    const double depth = at.dot(axes.forward), radius = ball.radius;
+    wide.add(at.dot(axes.right), depth, radius);
+    high.add(at.dot(axes.up), depth, radius);
+    near = std::min(near, depth - radius);
+    far = std::max(far, depth + radius);
+  }
+  const double depth = std::min(wide.depth(), high.depth());
+  const V3d eye = wide.middle() * axes.right + high.middle() * axes.up + depth * axes.forward;
+  return {eye, eye + (0.5 * (near + far) - depth) * axes.forward};
+}
+
+PlacedEye parallel_eye(std::span<const FramedBall> balls, const PictureAxes& axes, double aspect) {
+  Imath::Box3d box;
+  for (const FramedBall& ball : balls) {
+    const V3d at(ball.center), local(at.dot(axes.right), at.dot(axes.up), at.dot(axes.forward));
+    box.extendBy(local - V3d(ball.radius));
+    box.extendBy(local + V3d(ball.radius));
+  }
+  const V3d size = box.size(), middle = box.center();
+  const auto world = [&](double depth) {
+    return middle.x * axes.right + middle.y * axes.up + depth * axes.forward;
+  };
+  return {world(box.min.z - size.length()), world(middle.z),
+          std::max(size.y, size.x / aspect) / (1 - 2 * kMargin)};
+}
+
+/// The frames of all keys of animated values; one frame if nothing is animated.
+std::set<double> key_frames(const CameraParams& camera) {
+  std::set<double> frames;
+  const auto add = [&](const auto& values) {
+    if (values.is_constant()) return;
+    for (const auto& [frame, value] : values.keys()) frames.insert(frame);
+  };
+  add(camera.position);
+  add(camera.look_at);
+  add(camera.up);
+  if (!camera.orthographic) add(camera.fov);
+  if (frames.empty()) frames.insert(0);
+  return frames;
+}
+
+/// How far strands extend: above the skin at their roots, and the points of strands that a still skin
+/// carries.
+struct FurExtent {
+  float height = 0;
+  std::vector<V3f> points;  // rest space
+};
+
+/// Measures a few thousand strands of a coat on its skin at rest. Bounds of all strands are much larger than
+/// a combed coat: the picture would have wide borders.
+void measure_fur(const Groom& groom, const LimitSurface& rest, FurExtent& extent) {
+  constexpr size_t kStrands = 3000, kLeaves = 256;
+  const auto leaves = groom.follicles().leaves();
+  PosedSkin pose;
+  pose.keys = {&rest, 1};
+  const size_t step = leaves.size() / kLeaves + 1;
+  const size_t wanted = std::max<size_t>(8, kStrands * step / std::max<size_t>(1, leaves.size()));
+  for (size_t leaf = 0; leaf < leaves.size(); leaf += step) {
+    std::vector<uint32_t> some(std::min<size_t>(wanted, leaves[leaf].end - leaves[leaf].begin));
+    std::iota(some.begin(), some.end(), 0u);
+    const std::vector<float> widths(some.size(), 1.0f);
+    const KeptStrands kept{some, widths, {}};
+    const Strands strands = groom.grow(leaf, pose, &kept);
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      const SurfacePoint root = groom.root(leaves[leaf].begin + s, pose, 0);
+      const V3f normal = LimitSurface::frame_of(root).normal;
+      for (size_t i = strands.first_point(s); i < strands.first_point(s + 1); ++i) {
+        const V3f point = strands.point(i);
+        extent.height = std::max(extent.height, (point - root.position).dot(normal) + strands.radius(i));
+        extent.points.push_back(point);
+      }
+    }
+  }
+}
+
+FurExtent fur_extent(const PartParams& part, const CharacterPose& pose, const Assets& assets) {
+  const LimitSurface& rest = *assets.skins.at(part.skin.name).rest;
+  FurExtent extent;
+  for (const auto& item : part.grooms.items) {
+    const Groom& groom = *assets.grooms.at(item.name);
+    if (groom.grows_on_skin() && !groom.needs_closest_point()) {
+      measure_fur(groom, rest, extent);
+    } else {
+      extent.height = std::max(extent.height, groom.reach());
+    }
+  }
+  extent.height *= std::abs(pose.scale) * std::max(1.0f, pose.length);
+  return extent;
+}
+
+void add_surface(const LimitSurface& surface, const M44f& to_world, float radius,
+                 std::vector<FramedBall>& balls) {
+  constexpr double kPoints = 4000;  // on a coarse cage, so that those between the outermost are near to them
+  const SurfaceTopology& topology = surface.topology();
+  const int steps =
+      topology.is_flat() ? 1 : std::clamp(int(std::sqrt(kPoints / topology.face_count())), 2, 32);
+  for (uint32_t face = 0; face < topology.face_count(); ++face) {
+    if (topology.is_hole(face)) continue;
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; j <= (topology.is_triangular() ? steps - i : steps); ++j) {
+        const float u = float(i) / float(steps), v = float(j) / float(steps);
+        balls.push_back({surface.evaluate(face, u, v).position * to_world, radius});
+      }
+    }
+  }
+}
+
+void add_framed_part(const FrameCharacter& character, size_t index, const Assets& assets, double frame,
+                     const Job& job, std::vector<FramedBall>& balls) {
+  const PartParams& part = character.params->parts[index];
+  const Assets::Skin& skin = assets.skins.at(part.skin.name);
+  const CharacterPose pose = pose_character(character, index, assets, CameraParams(), frame);
+  const FurExtent fur = fur_extent(part, pose, assets);
+  const float radius = fur.height;
+  if (character.member) {  // one of many: the corners of its box are near enough
+    const Box3f box = approximate_box(character, index, assets, frame);
+    for (int i = 0; i < 8; ++i)
+      balls.push_back(
+          {V3f(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z),
+           radius});
+  } else if (skin.poses || assets.part_poses.contains({character.prototype, index})) {
+    const SurfaceTopology::PoseBytes bytes = pose.topology->pose_bytes();
+    const MemoryCharge charge =
+        reserve(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(bytes.held + bytes.making),
+                "the pose of skin " + quote(part.skin.name) + " that the camera frames");
+    add_surface(LimitSurface(pose.topology, pose.shutter.cages.front()), M44f(), radius, balls);
+  } else {
+    const M44f& to_world = pose.shutter.transforms.front();
+    add_surface(*skin.rest, to_world, radius, balls);
+    for (const V3f& point : fur.points) balls.push_back({point * to_world, 0});
+  }
+}
+
+std::vector<FramedBall> framed_balls(const SceneDescription& scene, const Assets& assets, const Job& job) {
+  const NameReference& wanted = scene.camera.frame;
+  std::vector<FramedBall> balls;
+  for (const FrameCharacter& character : frame_characters(scene, assets)) {
+    job.check_stop();
+    const bool whole = wanted.name == kFrameAll || character.prototype == wanted.name;
+    for (size_t part = 0; part < character.params->parts.size(); ++part) {
+      if (whole || character.params->parts[part].skin.name == wanted.name)
+        add_framed_part(character, part, assets, scene.framed_at, job, balls);
+    }
+  }
+  if (balls.empty())
+    throw Error(ErrorKind::kInput, wanted.position,
+                "no visible character shows " + quote(wanted.name) + ": the camera has nothing to frame");
+  return balls;
+}
+
+}  // namespace
+
+V3f default_view(const V3f& up) {
+  const V3f above = up.length() > 0 ? up.normalized() : V3f(0, 1, 0);
+  const V3f front = std::abs(above.z) < 0.9f ? V3f(0, 0, 1) : V3f(0, -1, 0);
+  const V3f forward = (front - above * above.dot(front)).normalized();
+  return 0.75f * forward + 0.6f * above.cross(forward) + 0.25f * above;
+}
+
+CameraParams camera_around(std::span<const FramedBall> balls, CameraParams camera, double aspect) {
+  std::vector<std::pair<double, V3f>> positions, targets;
+  std::vector<std::pair<double, float>> heights;
+  for (const double frame : key_frames(camera)) {
+    const V3d forward = V3d(camera.look_at.at(frame)) - V3d(camera.position.at(frame));
+    const V3d right = forward.cross(V3d(camera.up.at(frame)));
+    if (!(right.length() > 1e-6 * forward.length() * V3d(camera.up.at(frame)).length())) return camera;
+    PictureAxes axes{right.normalized(), {}, forward.normalized()};
+    axes.up = axes.right.cross(axes.forward);
+    const double tangent = std::tan(camera.fov.at(frame) * std::numbers::pi / 360) * (1 - 2 * kMargin);
+    const PlacedEye eye = camera.orthographic ? parallel_eye(balls, axes, aspect)
+                                              : perspective_eye(balls, axes, tangent, aspect);
+    positions.emplace_back(frame, V3f(eye.position));
+    targets.emplace_back(frame, V3f(eye.target));
+    heights.emplace_back(frame, static_cast<float>(eye.height));
+  }
+  camera.position = Keyed<V3f>(std::move(positions));
+  camera.look_at = Keyed<V3f>(std::move(targets));
+  if (camera.orthographic) camera.orthographic = Keyed<float>(std::move(heights));
+  return camera;
+}
+
+CameraParams placed_camera(const SceneDescription& scene, const Assets& assets, const Job& job) {
+  if (scene.camera.frame.name.empty()) return scene.camera;
+  CameraParams camera = camera_around(framed_balls(scene, assets, job), scene.camera,
+                                      double(scene.image.width) / scene.image.height);
+  camera.frame = {};
+  return camera;
+}
+
+}  // namespace pelage
