@@ -15,6 +15,7 @@
 #include "procedurals/bounds/segment_parts.h"
 #include "tests/procedurals/bounds_checks.h"
 #include "tests/procedurals/random_coats.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -24,7 +25,7 @@ class RandomBounds : public testing::TestWithParam<int> {
   RandomCoat coat_{static_cast<uint64_t>(GetParam()),
                    {.motion_keys = 1 + GetParam() % 4, .push_out = GetParam() % 5 == 4}};
 };
-INSTANTIATE_TEST_SUITE_P(Coat, RandomBounds, testing::Range(0, 16));
+INSTANTIATE_TEST_SUITE_P(Coat, RandomBounds, testing::Range(0, kSanitized ? 6 : 16));
 
 // Every point +- radius that a ray can meet lies in a box at the ray's time, for every strategy that promises
 // it.
