@@ -35,8 +35,7 @@ void check_new_output(const Options& options, const std::filesystem::path& scene
 /// The path of the mesh as the scene must name it: relative to the scene, unless the user gave it absolutely.
 std::string path_from(const std::filesystem::path& scene, const std::filesystem::path& mesh) {
   if (mesh.is_absolute()) return mesh.string();
-  const std::filesystem::path folder = scene.has_parent_path() ? scene.parent_path() : ".";
-  return std::filesystem::proximate(mesh, folder).string();
+  return std::filesystem::proximate(mesh, std::filesystem::absolute(scene).parent_path()).string();
 }
 
 }  // namespace

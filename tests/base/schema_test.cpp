@@ -148,7 +148,7 @@ TEST(Schema, BlocksOfSeveralKinds) {
   EXPECT_EQ(lines(scalar("sphere")),
             Lines{"t:1:1: expected a block with 'type: sphere | environment', got 'sphere'"});
   EXPECT_EQ(lines(block({{"type", scalar("environment")}, {"radius", scalar("1")}})),
-            Lines{"t:2:1: unknown key 'radius' in environment"});
+            Lines{"t:2:1: unknown key 'radius' in environment; expected type"});
 }
 
 TEST(Schema, ListsItsKeysForTheManual) {

@@ -48,9 +48,9 @@ TEST(Regions, StandForTheirFieldsEverywhere) {
 
 TEST(Regions, UnknownNamesAreReportedWithTheNearest) {
   EXPECT_EQ(problems_of("regions:\n  eras: 0.5\n  tip: 1\n" + kUse),
-            (std::vector<std::string>{"s.yaml:9:53: there is no region 'ears'; did you mean 'eras'?",
-                                      "s.yaml:9:73: there is no region 'ears'; did you mean 'eras'?",
-                                      "s.yaml:10:53: there is no region 'ears'; did you mean 'eras'?"}));
+            (std::vector<std::string>{"s.yaml:10:53: there is no region 'ears'; did you mean 'eras'?",
+                                      "s.yaml:10:77: there is no region 'ears'; did you mean 'eras'?",
+                                      "s.yaml:11:54: there is no region 'ears'; did you mean 'eras'?"}));
   EXPECT_EQ(problems_of("materials: {fur: {model: cone-shell, color: {region: ears}}}\n"),
             std::vector<std::string>{"s.yaml:2:54: there is no region 'ears'; the scene has none"});
 }
