@@ -41,6 +41,7 @@ std::string path_from(const std::filesystem::path& scene, const std::filesystem:
 }  // namespace
 
 int run_new(const Options& options) {
+  if (options.input.empty()) throw Error(ErrorKind::kArguments, "the name of the mesh is empty");
   const std::filesystem::path scene = options.output;
   check_new_output(options, scene);
   const std::optional<AxisDirection> up = axis_of("--up", options.starter.up);

@@ -23,7 +23,8 @@ struct Field::Node {
   /// Fields from which this one is computed. If there are any, a value depends on nothing but their values.
   virtual std::span<const Field> inputs() const { return {}; }
   /// Computes `count` values of one channel. `rows`: for each input, its values of this channel.
-  virtual void combine(std::span<const float* const> /*rows*/, size_t /*count*/, float* /*out*/) const {}
+  virtual void combine(std::span<const float* const> /*rows*/, int /*channel*/, size_t /*count*/,
+                       float* /*out*/) const {}
   virtual void collect_attributes(std::vector<std::string>& names) const {
     for (const Field& input : inputs()) input.node().collect_attributes(names);
   }

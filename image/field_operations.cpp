@@ -38,16 +38,25 @@ class PerInput {
 
 /// A field whose every channel is `Op` of that channel of the inputs. An Op has
 ///   float operator()(Values) const;      // the value for values of the inputs
+/// or, if channels differ beyond their inputs,
+///   float channel(Values, int channel) const;
+/// and
 ///   Range range(Ranges) const;           // its min and max for those of the inputs
 ///   std::string print(const std::vector<Field>& inputs) const;
 template <class Op>
 struct OperationNode final : Field::Node {
   OperationNode(Op o, std::vector<Field> f) : op(std::move(o)), fields(std::move(f)) {}
 
+  float apply(Values values, int channel) const {
+    if constexpr (requires { op.channel(values, channel); })
+      return op.channel(values, channel);
+    else
+      return op(values);
+  }
   float value(const FieldPoint& p) const override {
     PerInput<float> values(fields.size());
     for (size_t i = 0; i < fields.size(); ++i) values.data()[i] = fields[i].value(p);
-    return op(values.get());
+    return apply(values.get(), 0);
   }
   Rgb color(const FieldPoint& p) const override {
     PerInput<Rgb> colors(fields.size());
@@ -56,15 +65,15 @@ struct OperationNode final : Field::Node {
     Rgb result;
     for (int c = 0; c < 3; ++c) {
       for (size_t i = 0; i < fields.size(); ++i) channel.data()[i] = colors.data()[i][c];
-      result[c] = op(channel.get());
+      result[c] = apply(channel.get(), c);
     }
     return result;
   }
-  void combine(std::span<const float* const> rows, size_t count, float* out) const override {
+  void combine(std::span<const float* const> rows, int channel, size_t count, float* out) const override {
     PerInput<float> values(rows.size());
     for (size_t s = 0; s < count; ++s) {
       for (size_t i = 0; i < rows.size(); ++i) values.data()[i] = rows[i][s];
-      out[s] = op(values.get());
+      out[s] = apply(values.get(), channel);
     }
   }
   FieldDependence dependence() const override {
@@ -178,7 +187,7 @@ struct Invert {
 struct Clamp {
   float low, high;
   bool is_block;  ///< whether the scene has a block for it; otherwise these are the limits of a key
-  float operator()(Values v) const { return std::min(std::max(v[0], low), high); }
+  float operator()(Values v) const { return std::min(high, std::max(low, v[0])); }  // also of NaN
   Range range(Ranges r) const { return {(*this)({&r[0].first, 1}), (*this)({&r[0].second, 1})}; }
   std::string print(const std::vector<Field>& f) const {
     if (!is_block) return print_field(f[0]);
@@ -212,7 +221,7 @@ struct Step {
 
 struct Remap {
   std::vector<RampKnot> curve;
-  float operator()(Values v) const { return on_curve(curve, v[0]).x; }
+  float channel(Values v, int channel) const { return on_curve(curve, v[0])[channel]; }
   Range range(Ranges) const {
     Range all{kUnlimited, -kUnlimited};
     for (const RampKnot& knot : curve)

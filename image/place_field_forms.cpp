@@ -162,7 +162,8 @@ const Schema<DistanceKeys>& DistanceKeys::schema() {
            .help = "Points that a line joins, in the skin's rest space",
            .default_text = "none"});
     s.key("boundary", &DistanceKeys::boundary,
-          {.help = "A field, such as a region: the distance from the line on the skin where it is 0.5",
+          {.help = "A field, such as a region: the distance from the line on the skin where it is 0.5. "
+                   "Fields that jump between faces, such as `group`, have no such line",
            .default_text = "none"});
     s.key("mesh", &DistanceKeys::mesh,
           {.help = "OBJ file in the skin's rest space: the distance from its faces", .default_text = "none"});

@@ -266,8 +266,10 @@ std::optional<SkinFields> skin_fields(const Assets& assets, const std::string& n
                                    skin->second.cage, job);
 }
 
-/// The skin on which a material is used, itself or for strands; "" if there is none or more than one.
-std::string skin_of_material(const SceneDescription& scene, const std::string& material) {
+/// The skin on which a material is used, itself or for strands; "" if there is more than one. Any skin if
+/// nothing uses the material.
+std::string skin_of_material(const SceneDescription& scene, const Assets& assets,
+                             const std::string& material) {
   std::set<std::string> skins;
   for (const auto& character : scene.characters.items) {
     for (const PartParams& part : character.value.parts) {
@@ -284,6 +286,7 @@ std::string skin_of_material(const SceneDescription& scene, const std::string& m
       if (surface.value.name == material) skins.insert("");
     }
   }
+  if (skins.empty() && !assets.skins.empty()) return assets.skins.begin()->first;
   return skins.size() == 1 ? *skins.begin() : "";
 }
 
@@ -365,7 +368,7 @@ std::vector<MaterialParams> load_materials(const SceneDescription& scene, Assets
   materials.reserve(scene.materials.items.size());
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();
-    const std::optional<SkinFields> fields = skin_fields(assets, skin_of_material(scene, name), job);
+    const std::optional<SkinFields> fields = skin_fields(assets, skin_of_material(scene, assets, name), job);
     MaterialParams material = with_textures(params, {assets.textures, fields ? &*fields : nullptr});
     const std::string text = fibre_text(scene.parts, name);
     if (const auto known = made.find(text); known != made.end() && fibre_params(material)) {

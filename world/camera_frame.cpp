@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -126,9 +127,14 @@ void measure_fur(const Groom& groom, const LimitSurface& rest, FurExtent& extent
   }
 }
 
-FurExtent fur_extent(const PartParams& part, const CharacterPose& pose, const Assets& assets) {
+/// The extents of parts on their skins at rest. All members of a crowd share those of their prototype.
+using FurExtents = std::map<const PartParams*, FurExtent>;
+
+const FurExtent& fur_extent(const PartParams& part, const Assets& assets, FurExtents& known) {
+  const auto [entry, is_new] = known.try_emplace(&part);
+  if (!is_new) return entry->second;
   const LimitSurface& rest = *assets.skins.at(part.skin.name).rest;
-  FurExtent extent;
+  FurExtent& extent = entry->second;
   for (const auto& item : part.grooms.items) {
     const Groom& groom = *assets.grooms.at(item.name);
     if (groom.grows_on_skin() && !groom.needs_closest_point()) {
@@ -137,7 +143,6 @@ FurExtent fur_extent(const PartParams& part, const CharacterPose& pose, const As
       extent.height = std::max(extent.height, groom.reach());
     }
   }
-  extent.height *= std::abs(pose.scale) * std::max(1.0f, pose.length);
   return extent;
 }
 
@@ -159,12 +164,12 @@ void add_surface(const LimitSurface& surface, const M44f& to_world, float radius
 }
 
 void add_framed_part(const FrameCharacter& character, size_t index, const Assets& assets, double frame,
-                     const Job& job, std::vector<FramedBall>& balls) {
+                     const Job& job, FurExtents& extents, std::vector<FramedBall>& balls) {
   const PartParams& part = character.params->parts[index];
   const Assets::Skin& skin = assets.skins.at(part.skin.name);
   const CharacterPose pose = pose_character(character, index, assets, CameraParams(), frame);
-  const FurExtent fur = fur_extent(part, pose, assets);
-  const float radius = fur.height;
+  const FurExtent& fur = fur_extent(part, assets, extents);
+  const float radius = fur.height * std::abs(pose.scale) * std::max(1.0f, pose.length);
   if (character.member) {  // one of many: the corners of its box are near enough
     const Box3f box = approximate_box(character, index, assets, frame);
     for (int i = 0; i < 8; ++i)
@@ -187,12 +192,13 @@ void add_framed_part(const FrameCharacter& character, size_t index, const Assets
 std::vector<FramedBall> framed_balls(const SceneDescription& scene, const Assets& assets, const Job& job) {
   const NameReference& wanted = scene.camera.frame;
   std::vector<FramedBall> balls;
+  FurExtents extents;
   for (const FrameCharacter& character : frame_characters(scene, assets)) {
     job.check_stop();
     const bool whole = wanted.name == kFrameAll || character.prototype == wanted.name;
     for (size_t part = 0; part < character.params->parts.size(); ++part) {
       if (whole || character.params->parts[part].skin.name == wanted.name)
-        add_framed_part(character, part, assets, scene.framed_at, job, balls);
+        add_framed_part(character, part, assets, scene.framed_at, job, extents, balls);
     }
   }
   if (balls.empty())

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -73,6 +74,7 @@ class ObjReader {
   std::vector<Reference> vertex_references_;  // of tags
   std::vector<Reference> face_references_;
   std::unordered_map<std::string, uint16_t> group_numbers_;
+  std::map<const ControlMesh::FaceNames*, std::unordered_map<std::string, int>> name_numbers_;
   int current_group_ = -1, current_object_ = -1, current_material_ = -1;
 };
 
@@ -215,9 +217,11 @@ void ObjReader::read_group(std::string name) {
 void ObjReader::read_name(const std::string& name, ControlMesh::FaceNames& all, int& current) {
   // Faces before the first name have the name "".
   if (all.names.empty()) all.names.emplace_back();
-  const auto known = std::find(all.names.begin(), all.names.end(), name);
-  current = static_cast<int>(known - all.names.begin());
-  if (known != all.names.end()) return;
+  auto& numbers = name_numbers_[&all];
+  if (numbers.empty()) numbers.emplace("", 0);
+  const auto [known, is_new] = numbers.emplace(name, static_cast<int>(all.names.size()));
+  current = known->second;
+  if (!is_new) return;
   if (all.names.size() > std::numeric_limits<uint16_t>::max())
     return scanner_.report("more than 65535 objects or materials");
   all.names.push_back(name);

@@ -2,6 +2,7 @@
 #include "groom/operators/masked_operator.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "base/value_readers.h"
 #include "groom/strands/strand_batch.h"
@@ -67,11 +68,12 @@ OperatorTraits MaskedOperator::traits() const {
   OperatorTraits traits = inner_->traits();
   const FieldDependence needs = params_.mask.dependence();
   if (traits.colors) {
-    const AttributeClass own = needs.along                         ? AttributeClass::kPerPoint
+    const AttributeClass own = changes_along(params_.mask)         ? AttributeClass::kPerPoint
                                : needs.surface || needs.attributes ? AttributeClass::kPerStrand
                                                                    : AttributeClass::kConstant;
     traits.colors = std::max(*traits.colors, own);
     traits.replaces_colors = false;
+    traits.colors_partly = true;
   }
   traits.has_one_width_profile = false;
   traits.rest_use = std::max(traits.rest_use, pelage::rest_use(needs));
@@ -96,10 +98,11 @@ float MaskedOperator::coverage(const FieldPoint& root) const {
 
 void MaskedOperator::apply(StrandBatch& batch) const {
   // All rows of the mask are evaluated first, because the operator may change what the mask reads.
-  const bool along = params_.mask.dependence().along;
+  const bool along = changes_along(params_.mask);
   std::vector<StrandRow> rows(along ? batch.points.size() : 1);
+  FieldRows<StrandRow> values(params_.mask, batch);
   for (size_t p = 0; p < rows.size(); ++p)
-    evaluate(params_.mask, batch, batch.along(static_cast<int>(p)), rows[p]);
+    rows[p] = values.at(batch.along(static_cast<int>(p)), static_cast<int>(p));
   if (is_zero(rows, batch.count)) return;
   const auto mask = [&](size_t point) -> const StrandRow& { return rows[along ? point : 0]; };
 
@@ -126,7 +129,7 @@ StrandReach MaskedOperator::reach_after(const StrandReach& before) const {
   StrandReach after = inner_->reach_after(before);
   after.length = std::max(before.length, after.length);
   const float farthest = std::max(before.distance, after.distance);
-  if (params_.mask.dependence().along) {
+  if (changes_along(params_.mask)) {
     after.length += (before.distance + after.distance) * static_cast<float>(after.segments);
     after.lean = std::numbers::pi_v<float>;
   }

@@ -69,6 +69,8 @@ struct OperatorTraits {
   std::optional<AttributeClass> colors = {};
   /// Whether apply() ignores the colours that strands had before.
   bool replaces_colors = false;
+  /// Whether apply() colours only a part of the strands or of their points.
+  bool colors_partly = false;
   /// Whether apply() gives all strands the same width profile, times one factor per strand.
   bool has_one_width_profile = true;
   /// Whether apply() reads and writes no other data of a batch than ids, texture coordinates, rest positions,

@@ -76,6 +76,7 @@ bool read_item(const Value& value, OperatorList::Item& item, Problems& problems)
     const Value block =
         Value::map(entry.value.position(), {{std::string(kMaskKey), mask->position(), *mask}});
     if (!MaskParams::schema().read(block, params, problems)) return false;
+    if (params.mask.is_constant() && params.mask.value({}) == 1) return item.prototype != nullptr;
     if (item.prototype)
       item.prototype = std::make_shared<MaskedOperator>(item.prototype, kind->clone, std::move(params.mask));
     item.masked = true;

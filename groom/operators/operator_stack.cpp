@@ -123,6 +123,7 @@ Operator::Brightness OperatorStack::brightness(uint64_t seed, uint64_t strand_id
   for (size_t i = size(); i-- > 0;) {
     const Operator& op = *operators_[i];
     if (!traits_[i].colors) continue;
+    if (traits_[i].colors_partly) return {};  // how bright a strand is depends on where it is
     const Operator::Brightness own = op.brightness(seed_of(seed, i), strand_id);
     product.value *= own.value;
     product.mean *= own.mean;

@@ -46,6 +46,8 @@ bool changes_by_strand(const Field& field) {
   return needs.surface || needs.attributes;
 }
 
+}  // namespace
+
 bool changes_along(const Field& field) {
   const FieldDependence needs = field.dependence();
   if (needs.along) return true;
@@ -54,6 +56,8 @@ bool changes_along(const Field& field) {
       needs.attributes ? field.attribute_names() : std::vector<std::string>();
   return std::find(names.begin(), names.end(), "color") != names.end();
 }
+
+namespace {
 
 /// The channels of a row: one number or a colour per strand.
 std::span<StrandRow> channels(StrandRow& row) { return {&row, 1}; }
@@ -73,7 +77,7 @@ void combine(const Field& field, std::span<const Row* const> inputs, size_t coun
   std::vector<const float*> rows(inputs.size());
   for (size_t c = 0; c < channels(out).size(); ++c) {
     for (size_t i = 0; i < inputs.size(); ++i) rows[i] = channels(*inputs[i])[c].data();
-    field.node().combine(rows, count, channels(out)[c].data());
+    field.node().combine(rows, static_cast<int>(c), count, channels(out)[c].data());
   }
 }
 

@@ -20,6 +20,10 @@ void evaluate(const Field& field, const StrandBatch& batch, float along, StrandR
 /// colour at this point.
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
+/// Returns whether a field may have several values on one strand: it depends on the position along strands,
+/// or on their attribute "color", which may.
+bool changes_along(const Field& field);
+
 /// Evaluates a field over a batch at successive positions along the strands. If it is computed from other
 /// fields, each of these is evaluated separately. A field that does not change along strands is evaluated
 /// once per strand. A field that changes only along strands is evaluated once per position. `Row`: StrandRow

@@ -70,6 +70,9 @@ TEST(FieldOperations, ComputeEveryChannel) {
   EXPECT_NEAR(mixed.y, 0.25f, 1e-6f);
   EXPECT_NEAR(mixed.z, 1, 1e-6f);
   EXPECT_NEAR(read("{add: [[1, 2, 3], 1]}").color(point).z, 4, 1e-6f);
+  const Rgb remapped = read("{remap: 0.25, knots: [[0, [1, 0, 0]], [1, [0, 0, 4]]]}").color(point);
+  EXPECT_NEAR(remapped.x, 0.75f, 1e-6f);
+  EXPECT_NEAR(remapped.z, 1, 1e-6f);
 }
 
 TEST(FieldOperations, RangesContainEveryValue) {

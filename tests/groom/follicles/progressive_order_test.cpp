@@ -100,8 +100,10 @@ TEST(ProgressiveOrder, OfANarrowSkinIsFoundWithoutForgetting) {
     job.ledger().set_limit(static_cast<uint64_t>(limit));
     return static_cast<int64_t>(FollicleTree::build(*surface, options, job).size());
   };
-  EXPECT_EQ(placed(few, 0), few);                     // holds all at once
-  if (!kSanitized) EXPECT_EQ(placed(many, 0), many);  // holds the least, and then all
+  EXPECT_EQ(placed(few, 0), few);  // holds all at once
+  if (!kSanitized) {
+    EXPECT_EQ(placed(many, 0), many);  // holds the least, and then all
+  }
   try {
     placed(few, follicle_temporary_bytes(few));
     FAIL();

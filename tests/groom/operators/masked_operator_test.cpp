@@ -87,6 +87,24 @@ TEST_F(MaskedOperators, InterpolateInBetweenAndAlongTheStrand) {
   }
 }
 
+TEST_F(MaskedOperators, FollowTheColorAlongTheStrand) {
+  const auto op = masked("width: {root: 0.2, tip: 0.2, mask: {attribute: color}}");
+  auto batch = straight();
+  clear_attributes(*batch);
+  batch->colors.resize(batch->points.size());
+  for (size_t p = 0; p < 8; ++p) batch->colors[p][0].fill(static_cast<float>(p) / 7);
+  op->apply(*batch);
+  for (size_t p = 0; p < 8; ++p)
+    EXPECT_NEAR(batch->points[p].radius[0], 0.1f * static_cast<float>(p) / 7, 1e-6f);
+}
+
+TEST_F(MaskedOperators, HideHowBrightAStrandIs) {
+  const std::string dark = "color: {value: 0.4, variation: 0.9";
+  EXPECT_TRUE(masked(dark + ", mask: {ramp: {along: x, knots: [[0, 0], [1, 1]]}}}")->traits().colors_partly);
+  EXPECT_FALSE(masked(dark + ", mask: 1}")->traits().colors_partly);
+  EXPECT_TRUE(masked(dark + ", mask: 1}")->traits().replaces_colors);
+}
+
 TEST_F(MaskedOperators, StayWithinTheirBounds) {
   StrandReach before;
   before.lean = 0.4f;
