@@ -84,8 +84,8 @@ class Field {
   /// Returns all files whose contents are part of the field.
   std::vector<std::filesystem::path> files() const;
 
-  /// Returns this field with its maps loaded, and with what it reads from the skin. Passes on the errors of
-  /// TextureLibrary::load(). Throws Error (kInput) when an image has no channel of the given name, and when
+  /// Returns this field after loading its maps and the values that it reads from the skin. Throws the errors
+  /// of TextureLibrary::load(), and Error (kInput) when an image has no channel of the given name, and when
   /// the field needs a skin, or something of the skin, that does not exist. These errors have the position in
   /// the scene.
   Field with_textures(const FieldSources& sources) const;

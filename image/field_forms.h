@@ -29,7 +29,8 @@ const SchemaInfo& form_table() {
 std::span<const FieldForm> plain_field_forms();      ///< map, ramp, noise, attribute
 std::span<const FieldForm> operation_field_forms();  ///< computed from other fields
 std::span<const FieldForm> place_field_forms();      ///< shapes in rest space, height, slope
-std::span<const FieldForm> mesh_field_forms();       ///< what the mesh of a skin provides; named regions
+std::span<const FieldForm> mesh_field_forms();       ///< what the mesh of a skin provides
+std::span<const FieldForm> region_field_forms();     ///< regions of the scene, by name
 
 /// A field inside a field. Its table is not listed under the enclosing block: a field's tables include this
 /// block, and would be requested while they are constructed.

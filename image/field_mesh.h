@@ -6,8 +6,8 @@
 
 #include "image/field_nodes.h"
 
-// Fields of what the mesh of a skin provides (image/field_skin.h). Each `position` is that of the block in
-// the scene, for errors of with_textures().
+// Fields that read the mesh of a skin (image/field_skin.h). `position`: where the scene has the block, for
+// the errors of with_textures().
 
 namespace pelage {
 

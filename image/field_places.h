@@ -41,7 +41,7 @@ struct DistanceTarget {
   std::vector<V3f> line;                ///< at least 2 points, if there is no `point`
 };
 
-/// Each `position` is that of the block in the scene, for errors of with_textures().
+/// `position`: where the scene has the block, for the errors of with_textures().
 Field box_field(BoxShape box, SourcePosition position);
 Field sphere_field(SphereShape sphere, SourcePosition position);
 /// Returns 0 at the lowest and 1 at the highest corner of the skin's bounds, along a direction.

@@ -15,8 +15,8 @@ namespace {
 const std::vector<FieldForm>& forms() {
   static const std::vector<FieldForm> all = [] {
     std::vector<FieldForm> list;
-    for (const auto part :
-         {plain_field_forms(), operation_field_forms(), place_field_forms(), mesh_field_forms()})
+    for (const auto part : {plain_field_forms(), operation_field_forms(), place_field_forms(),
+                            mesh_field_forms(), region_field_forms()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 
 #include "base/nearest_name.h"
 #include "scene/document.h"
@@ -20,6 +21,22 @@ void collect(const SchemaInfo& table, Tables& tables) {
   }
 }
 
+// Fields can be written in so many ways that one section lists them, and keys refer to that section.
+constexpr std::string_view kFields = "fields";
+bool is_field(const SchemaInfo* table) {
+  return table->name().ends_with(" field") && !table->name().ends_with(" of a field");  // a part of one
+}
+
+// The sections that the blocks of a key are described in.
+std::vector<std::string> sections_of(const KeyInfo& key) {
+  std::vector<std::string> names;
+  for (const SchemaInfo* block : key.blocks) {
+    const std::string name = is_field(block) ? std::string(kFields) : block->name();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
 // Sections for a name: tables of that name, otherwise the blocks under keys of that name.
 Tables find_sections(const Tables& all, const std::string& name) {
   Tables found;
@@ -27,7 +44,7 @@ Tables find_sections(const Tables& all, const std::string& name) {
     if (std::find(found.begin(), found.end(), table) == found.end()) found.push_back(table);
   };
   for (const SchemaInfo* table : all) {
-    if (table->name() == name) add(table);
+    if (table->name() == name || (name == kFields && is_field(table))) add(table);
   }
   if (!found.empty()) return found;
   for (const SchemaInfo* table : all) {
@@ -40,7 +57,7 @@ Tables find_sections(const Tables& all, const std::string& name) {
 }
 
 std::vector<std::string> section_names(const Tables& all) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{std::string(kFields)};
   for (const SchemaInfo* table : all) {
     names.push_back(table->name());
     for (const KeyInfo& key : table->keys()) {
@@ -117,8 +134,7 @@ std::string plain_section(const SchemaInfo& table) {
     text += entry + wrap(former.empty() ? std::string(key.options.help)
                                         : join({with_stop(key.options.help), former}, " "),
                          indent);
-    std::vector<std::string> sections;
-    for (const SchemaInfo* block : key.blocks) sections.push_back(block->name());
+    const std::vector<std::string> sections = sections_of(key);
     if (!sections.empty()) text += wrap("see " + join(sections, ", "), indent);
   }
   if (!table.example().empty()) text += "\n  Example:\n" + indented(table.example(), "    ");
@@ -155,15 +171,31 @@ std::string markdown_section(const SchemaInfo& table) {
   text += "| key | type | default | range | unit | |\n|---|---|---|---|---|---|\n";
   for (const KeyInfo& key : table.keys()) {
     std::vector<std::string> sections;
-    for (const SchemaInfo* block : key.blocks) {
-      sections.push_back("[" + block->name() + "](" + anchor(block->name()) + ")");
-    }
+    for (const std::string& name : sections_of(key))
+      sections.push_back("[" + name + "](" + anchor(name) + ")");
     const std::string see = sections.empty() ? "" : "See " + join(sections, ", ") + ".";
     text += "| `" + key.name + "` | " + escape_cell(key.type) + " | " + escape_cell(default_of(key)) + " | " +
             escape_cell(range_text(key.options)) + " | " + escape_cell(key.options.unit) + " | " +
             join({escape_cell(with_stop(key.options.help)), former_names(key), see}, " ") + " |\n";
   }
   return text + "\n";
+}
+
+// One line for each kind of field.
+std::string fields_section(const Tables& fields, bool markdown) {
+  const std::string help =
+      "A number or a colour that may vary over the skin and along strands. Where a key is a field, write "
+      "a number, a colour, or one of these blocks:";
+  std::string text =
+      markdown ? "## fields\n\n" + help + "\n\n| block | |\n|---|---|\n" : "fields\n" + wrap(help, "  ");
+  for (const SchemaInfo* field : fields) {
+    const std::string key = field->keys().front().name;
+    const std::string first(field->help().substr(0, field->help().find(". ")));
+    text += markdown ? "| [`" + key + "`](" + anchor(field->name()) + ") | " + escape_cell(with_stop(first)) +
+                           " |\n"
+                     : wrap(key + ": " + with_stop(first), "    ");
+  }
+  return markdown ? text + "\n" : text;
 }
 
 }  // namespace
@@ -176,9 +208,15 @@ std::string manual_text(const SchemaInfo& root, const std::string& section, bool
     throw Error(ErrorKind::kArguments,
                 "the manual has no section " + quote(section) + suggest(section, section_names(all)));
   }
+  Tables fields;
+  std::copy_if(shown.begin(), shown.end(), std::back_inserter(fields), is_field);
   std::string text;
   for (const SchemaInfo* table : shown) {
     if (!text.empty() && !markdown) text += "\n";
+    if (fields.size() > 1 && table == fields.front()) {
+      text += fields_section(fields, markdown);
+      if (!markdown) text += "\n";
+    }
     text += markdown ? markdown_section(*table) : plain_section(*table);
   }
   return text;

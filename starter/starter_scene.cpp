@@ -27,6 +27,21 @@ std::string vector(V3f v) {
 }
 std::string color(const Rgb& c) { return list(V3f(c.x, c.y, c.z), number); }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+/// In double quotes, where YAML has escapes for control characters: a line break in the name of a file must
+/// not begin a line of the scene.
+std::string escaped(const std::string& path) {
+  std::string text = "\"";
+  for (const char c : path) {
+    if (is_control(c))
+      text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      text += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return text + "\"";
+}
+
 /// A path in quotes for YAML, where it needs them.
 std::string quoted(const std::string& path) {
   const auto plain = [](char c) {
@@ -35,6 +50,7 @@ std::string quoted(const std::string& path) {
   };
   const bool starts_plain = !path.empty() && path[0] != '-' && path[0] != '.';
   if (starts_plain && std::all_of(path.begin(), path.end(), plain)) return path;
+  if (std::any_of(path.begin(), path.end(), is_control)) return escaped(path);
   std::string text = "'";
   for (const char c : path) text += c == '\'' ? "''" : std::string(1, c);
   return text + "'";

@@ -43,6 +43,10 @@ TEST(StarterScene, NamesThatYamlWouldMisreadAreQuoted) {
   StarterScene odd = starter(1);
   odd.mesh = "my cow's: {mesh}.obj";
   EXPECT_TRUE(has(starter_scene_text(odd), "mesh: 'my cow''s: {mesh}.obj'"));
+  odd.mesh = "cow\nrender: \"x\".obj";  // must not add lines to the scene
+  const std::string text = starter_scene_text(odd);
+  EXPECT_TRUE(has(text, R"(coat on "cow\x0arender: \"x\".obj", by)")) << text;
+  EXPECT_TRUE(has(text, R"(mesh: "cow\x0arender: \"x\".obj", scheme)")) << text;
 }
 
 TEST(CoatLook, UnknownNamesAreRefusedWithTheNearest) {
