@@ -41,8 +41,15 @@ class MemoryLedger {
 
   /// Sets the limit `render.memory` in bytes; 0 means no limit. Call before charging anything. The ledger
   /// does not enforce the limit: code that is about to allocate memory must check it (base/memory_budget.h).
-  void set_limit(uint64_t bytes) { limit_ = static_cast<int64_t>(bytes); }
+  void set_limit(uint64_t bytes) {
+    limit_ = static_cast<int64_t>(bytes);
+    elastic_ = 0;
+  }
   int64_t limit() const { return limit_; }
+  /// Notes that a holder took so many bytes less than it would take under a higher limit. Advice about the
+  /// limit includes them: otherwise, the holder would take them, and the advised limit would be too low.
+  void add_elastic(int64_t bytes) { elastic_ += bytes; }
+  int64_t elastic() const { return elastic_; }
 
  private:
   struct Account {
@@ -51,6 +58,7 @@ class MemoryLedger {
   };
   std::array<Account, static_cast<size_t>(MemoryTag::kCount)> accounts_;
   int64_t limit_ = 0;
+  std::atomic<int64_t> elastic_{0};
 };
 
 /// Charges bytes to a ledger and subtracts them again in its destructor. A default-constructed MemoryCharge

@@ -36,7 +36,7 @@ bool has_room(const MemoryLedger& ledger, int64_t bytes) {
 
 void require_memory(const MemoryLedger& ledger, int64_t bytes, std::string_view what) {
   if (has_room(ledger, bytes)) return;
-  const int64_t needed = ledger.budgeted() + bytes;
+  const int64_t needed = ledger.budgeted() + bytes + ledger.elastic();
   throw Error(
       ErrorKind::kMemory,
       fmt::format("{} needs {}, but render.memory is {} and {}; give at least --memory {}M", what,

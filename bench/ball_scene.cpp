@@ -38,6 +38,7 @@ RenderScene ball_scene(const BumpyBall& ball, const MaterialParams& fibre, const
   image.height = picture.height;
   image.filter = PixelFilter::kBox;
   RenderParams render;
+  render.integrator = Integrator::kPath;
   render.bounces = picture.bounces;
   render.samples = picture.samples;
   LambertParams skin;

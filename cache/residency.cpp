@@ -57,7 +57,8 @@ void Residency::refuse_small_budget() const {
       ErrorKind::kMemory,
       fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; give at least {}M",
                   memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
-                  of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)), (min >> 20) + 1));
+                  of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)),
+                  ((min + ledger_.elastic()) >> 20) + 1));
 }
 
 Residency::~Residency() {

@@ -38,7 +38,7 @@ lights:
   rim: {{type: rectangle, position: [-2.2, 1.8, -2.8], look_at: [0, 0, 0], size: [1.5, 1.4], radiance: [16, 18, 22]}}
   sky: {{type: environment, radiance: [0.25, 0.28, 0.33]}}
 
-render: {{integrator: path, samples: 64, bounces: 12, lod: {{enabled: false}}}}
+render: {{samples: 64, bounces: 12, lod: {{enabled: false}}}}
 """
 
 

@@ -172,28 +172,14 @@ void check_shutter(const SceneDescription& scene, const Value& document, Problem
   problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
 }
 
-// Splatted samples count for pixels around theirs, which adaptive sampling may have given fewer or more.
-void check_filter_samples(const SceneDescription& scene, const Value& document, Problems& problems) {
-  if (scene.image.filter_samples != FilterSamples::kSplatted || !scene.render.adaptive) return;
-  problems.add(document.find("image")->find("filter_samples")->position(),
-               "`filter_samples: splatted` does not work with `adaptive` sampling; remove one of them");
-}
-
 void check_event_layers(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (!scene.image.event_layers || scene.image.light_layers) return;
   problems.add(document.find("image")->find("event_layers")->position(),
                "`event_layers` needs `light_layers: true`");
 }
 
-// Adaptive sampling and `noise` take the samples of a pixel for independent; those of `gather` share light.
 void check_gather(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (scene.render.integrator != Integrator::kGather) return;
-  const auto refuse = [&](const char* block, const char* key) {
-    problems.add(document.find(block)->find(key)->position(),
-                 fmt::format("`{}` does not work with `integrator: gather`; remove one of them", key));
-  };
-  if (scene.render.adaptive) refuse("render", "adaptive");
-  if (scene.image.noise_layers) refuse("image", "noise_layers");
   const bool asks = scene.render.gather.visibility == GatherVisibility::kRaster;
   if (asks && !scene.render.draws_visible()) {
     problems.add(document.find("render")->find("gather")->position(),
@@ -361,7 +347,6 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
-      check_filter_samples(scene, *document, problems);
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);

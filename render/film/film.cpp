@@ -68,8 +68,6 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
     sums_.add(x, y, footprint, light, layers);
   }
   sums_.add_weight(x, y, footprint);
-  if (!moments_.empty()) moments_[pixel].add(luminance(sample.radiance));
-
   surfaces_[pixel].offer(sample.surface, sample.inside_pixel());
   return true;
 }
@@ -98,15 +96,13 @@ std::vector<std::span<std::byte>> Film::state() {
           std::as_writable_bytes(std::span(surfaces_)), std::as_writable_bytes(std::span(moments_))};
 }
 
-Rgb Film::radiance(int x, int y) const {
-  return {sums_.mean(x, y, 0), sums_.mean(x, y, 1), sums_.mean(x, y, 2)};
-}
+Rgb Film::radiance(int x, int y) const { return {mean(x, y, 0), mean(x, y, 1), mean(x, y, 2)}; }
 
-float Film::alpha(int x, int y) const { return sums_.mean(x, y, 3); }
+float Film::alpha(int x, int y) const { return mean(x, y, 3); }
 
 Rgb Film::layer(int x, int y, size_t layer) const {
   const size_t c = first_channel(layer);
-  return {sums_.mean(x, y, c), sums_.mean(x, y, c + 1), sums_.mean(x, y, c + 2)};
+  return {mean(x, y, c), mean(x, y, c + 1), mean(x, y, c + 2)};
 }
 
 Rgb Film::indirect(int x, int y, size_t light, int group) const {
@@ -133,7 +129,7 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box,
   };
   const auto mean = [&](size_t pixel, size_t channel) {
     const size_t columns = static_cast<size_t>(width_);
-    return sums_.mean(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns), channel);
+    return this->mean(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns), channel);
   };
   const auto add_color = [&](const std::string& prefix, size_t first) {
     for (size_t c = 0; c < 3; ++c) {

@@ -43,8 +43,7 @@ class Film {
   /// Returns the memory, in bytes, that a film of this size needs.
   static int64_t bytes_needed(int width, int height, const FilmLayers& layers);
 
-  /// Returns the moments of the luminance of each pixel's own samples, row by row. Empty unless
-  /// layers().noise.
+  /// Returns the moments of the estimates of each pixel's luminance, row by row. Empty unless layers().noise.
   const std::vector<PixelMoments>& moments() const { return moments_; }
 
   int width() const { return width_; }
@@ -54,13 +53,19 @@ class Film {
   /// Adds a sample of pixel (x, y). `by_layer`: the sample's radiance divided among layers(), one entry per
   /// layer. When the radiance, alpha or an entry is not finite, returns false and only counts the sample.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
+  /// Adds an estimate of the luminance of pixel (x, y): the mean of some of its own samples, which share
+  /// nothing with its other samples. Only with layers().noise.
+  void add_estimate(int x, int y, double luminance, uint32_t samples) {
+    moments_[index(x, y)].add(luminance, samples);
+  }
 
   /// Returns how many samples of the pixel add() was given.
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
   // Min and sum of samples() over the pixels of a box.
   uint32_t min_samples(const PixelBox& box) const;
   double sample_sum(const PixelBox& box) const;
-  // Weighted means of the samples that count for a pixel; 0 if there are none.
+  // Weighted means of the samples that count for a pixel; 0 if there are none. Where splatted samples of
+  // tiles with different sample counts meet, each tile counts as if it had one sample per pixel.
   Rgb radiance(int x, int y) const;
   float alpha(int x, int y) const;
   Rgb layer(int x, int y, size_t layer) const;
@@ -87,6 +92,7 @@ class Film {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
   static size_t channel_count(const FilmLayers& layers) { return first_channel(layers.size()); }
+  float mean(int x, int y, size_t channel) const { return sums_.mean(x, y, channel, counts_); }
   /// Returns the index of a layer's red channel among the channels of sums_.
   static size_t first_channel(size_t layer) { return 4 + 3 * layer; }
 
@@ -95,7 +101,7 @@ class Film {
   FilmSums sums_;  // channels: R G B A, then 3 per layer
   std::vector<uint32_t> counts_;
   std::vector<FrontSurface> surfaces_;
-  std::vector<PixelMoments> moments_;  // of the luminance; empty unless layers().noise
+  std::vector<PixelMoments> moments_;  // of add_estimate(); empty unless layers().noise
   MemoryCharge charge_;
 };
 

@@ -18,8 +18,8 @@ const Schema<ImageParams>& ImageParams::schema() {
                "samples are distributed uniformly, and each sample is added to every pixel whose filter "
                "covers it. With `blackman-harris` this halves the variance at the same number of samples, "
                "but the noise of neighbouring pixels is correlated. No samples are taken outside the "
-               "picture, so the filters of the outermost pixels are cut off at its border. Not available "
-               "with `adaptive`",
+               "picture, so the filters of the outermost pixels are cut off at its border. With "
+               "`adaptive`, all pixels of a tile of 16 x 16 get the same number of samples",
            .default_text = "drawn; splatted with `integrator: gather`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
@@ -36,7 +36,9 @@ const Schema<ImageParams>& ImageParams::schema() {
              "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of the "
              "luminance). Adaptive sampling always adds them. With `filter_samples: splatted`, `noise` is "
              "computed from the pixel's own samples only and is too high: with `blackman-harris`, about "
-             "1.5 times the true error. Not available with `integrator: gather`, whose samples share light"});
+             "1.5 times the true error. With `integrator: gather`, the samples of a pixel are taken in four "
+             "parts that share no light, and `noise` comes from the differences of the parts; it does not "
+             "contain the error of the reflection cache, which all parts share"});
     s.key("lod_layer", &ImageParams::lod_layer,
           {.help = "Adds the layer `lod`: in each pixel, the fraction of strands that render.lod removed "
                    "from the front-most coat; 0 where a skin is front-most. `tools/exr_to_png IN.exr OUT.png "

@@ -85,17 +85,30 @@ void FilmSums::add_weight(int x, int y, const Footprint& footprint) {
   for_each_pixel(x, y, footprint, [&](float* pixel, float weight) { pixel[stride_ - 1] += weight; });
 }
 
-float FilmSums::mean(int x, int y, size_t channel) const {
-  float sum = 0, weight = 0;
+float FilmSums::mean(int x, int y, size_t channel, std::span<const uint32_t> samples) const {
   const int c0 = std::max(0, (x - reach_) / kTileSide), c1 = std::min(columns_ - 1, (x + reach_) / kTileSide);
   const int r0 = std::max(0, (y - reach_) / kTileSide), r1 = std::min(rows_ - 1, (y + reach_) / kTileSide);
+  // All pixels of a tile have the same count; in a region, those farther from (x, y) may have none.
+  const auto samples_of = [&](int column, int row) {
+    const int left = column * kTileSide, top = row * kTileSide;
+    const int i = std::clamp(x, left, left + kTileSide - 1), j = std::clamp(y, top, top + kTileSide - 1);
+    return samples[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)];
+  };
+  bool equal = true;
+  for (int row = r0; row <= r1; ++row) {
+    for (int column = c0; column <= c1; ++column) equal &= samples_of(column, row) == samples_of(c0, r0);
+  }
+  float sum = 0, weight = 0;
   for (int row = r0; row <= r1; ++row) {
     for (int column = c0; column <= c1; ++column) {
+      const uint32_t count = equal ? 1 : samples_of(column, row);
+      if (count == 0) continue;
+      const float share = 1.0f / static_cast<float>(count);
       const int left = x - column * kTileSide + reach_, top = y - row * kTileSide + reach_;
       const float* pixel =
           &sums_[tile_offset(column, row) + static_cast<size_t>(top * buffer_side_ + left) * stride_];
-      sum += pixel[channel];
-      weight += pixel[stride_ - 1];
+      sum += share * pixel[channel];
+      weight += share * pixel[stride_ - 1];
     }
   }
   return weight > 0 ? sum / weight : 0.0f;

@@ -54,8 +54,10 @@ class FilmSums {
   /// Returns the memory of the sums.
   std::span<float> values() { return sums_; }
 
-  /// Returns the weighted mean of a channel of pixel (x, y); 0 where nothing was added.
-  float mean(int x, int y, size_t channel) const;
+  /// Returns the weighted mean of a channel of pixel (x, y); 0 where nothing was added. `samples`: count of
+  /// samples by pixel, row by row. Where the tiles of splatted samples have different counts, the sums of
+  /// each tile are divided by its count, so that the filter keeps its shape.
+  float mean(int x, int y, size_t channel, std::span<const uint32_t> samples) const;
 
  private:
   template <class Use>

@@ -19,8 +19,8 @@ uint32_t limited(double count, uint32_t min, uint32_t max_samples) {
 /// Max duration of a pass that is watched, if it can be that short.
 constexpr double kWatched_s = 1;
 
-/// Fraction of the pilot that is used to find pixels with any variance.
-constexpr uint32_t kProbeShare = 4;
+/// Fraction of the pilot that is used to find pixels, or tiles, with any variance.
+constexpr uint32_t kProbeShare = 4, kTileProbeShare = 2;
 
 Pilot pilot_of(const Film& film) {
   Pilot pilot{film.width(), film.height(), {}};
@@ -29,7 +29,7 @@ Pilot pilot_of(const Film& film) {
     for (int x = 0; x < film.width(); ++x) {
       const PixelMoments& moments = film.moments()[pilot.pixels.size()];
       pilot.pixels.push_back({static_cast<float>(moments.mean), static_cast<float>(moments.variance()),
-                              film.alpha(x, y) > 0, moments.count});
+                              film.alpha(x, y) > 0, moments.samples});
     }
   }
   return pilot;
@@ -171,11 +171,14 @@ PassEnd SamplePasses::uniform(uint32_t samples) {
 
 PassEnd SamplePasses::pilot() {
   const uint32_t pilot = std::min(max_samples(), static_cast<uint32_t>(params_.adaptive->pilot));
-  const uint32_t probe = (pilot + kProbeShare - 1) / kProbeShare;
+  const uint32_t share = loop_.links_pixels() ? kTileProbeShare : kProbeShare;
+  const uint32_t probe = (pilot + share - 1) / share;
   job_.progress.begin("pilot", loop_.traced_count() * pilot);
   PassEnd end = uniform(probe);
   if (end == PassEnd::kDone) {
-    const std::vector<uint8_t> worth = needs_full_pilot(pilot_of(loop_.film()));
+    const Pilot probed = pilot_of(loop_.film());
+    const std::vector<uint8_t> worth =
+        loop_.links_pixels() ? tiles_need_full_pilot(probed, FilmSums::kTileSide) : needs_full_pilot(probed);
     const auto goal = [&](size_t pixel) { return worth[pixel] ? pilot : probe; };
     double expected = 0;
     for (size_t i = 0; i < worth.size(); ++i) expected += goal(i);
@@ -205,8 +208,11 @@ PassEnd SamplePasses::two_stage() {
 }
 
 std::vector<uint32_t> SamplePasses::second_stage_counts(const std::vector<uint32_t>& before) {
+  const Pilot known = pilot_of(loop_.film());
   const std::vector<float> wanted =
-      two_stage_counts(pilot_of(loop_.film()), *params_.adaptive, max_samples());
+      loop_.links_pixels()
+          ? two_stage_tile_counts(known, FilmSums::kTileSide, *params_.adaptive, max_samples())
+          : two_stage_counts(known, *params_.adaptive, max_samples());
   const auto count = [&](size_t pixel, double factor) {
     return limited(whole_blocks(std::min<double>(factor * wanted[pixel], max_samples())), before[pixel],
                    max_samples());

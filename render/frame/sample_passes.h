@@ -18,10 +18,11 @@ namespace pelage {
 /// Passes:
 /// - Without adaptive sampling, each pass takes as many samples of every pixel as all passes before it
 ///   together: 1, 1, 2, 4, 8 ... With `gather`, more where samples must be taken together.
-/// - With adaptive sampling (integrator `path` only), such passes first take a quarter of the pilot. One pass
+/// - With adaptive sampling, such passes first take a quarter of the pilot. One pass
 ///   takes the rest of the pilot in those pixels that need it (needs_full_pilot()). Then two_stage_counts()
 ///   determines how many samples each pixel needs. Four passes take the missing samples: up to an eighth, a
-///   quarter, a half, and all of them.
+///   quarter, a half, and all of them. If samples link the pixels of a tile (FrameLoop::links_pixels()), the
+///   rule of tiles decides instead, from half of the pilot.
 ///
 /// Several passes give an early preview of the whole picture. But when `fits` is false and there is no time
 /// limit, each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
@@ -61,10 +62,10 @@ class SamplePasses {
   PassEnd coarse_passes();
   /// Takes samples until every pixel has `samples`.
   PassEnd uniform(uint32_t samples);
-  /// Takes a quarter of the pilot in every pixel, and the rest of the pilot where needs_full_pilot() says so.
+  /// Takes a part of the pilot in every pixel, and the rest of the pilot where it is needed.
   PassEnd pilot();
   PassEnd two_stage();
-  /// Returns the counts of two_stage_counts(), rounded and scaled down to fit the time limit. `before`: the
+  /// Returns the counts of the rule, rounded and scaled down to fit the time limit. `before`: the
   /// counts so far, by pixel.
   std::vector<uint32_t> second_stage_counts(const std::vector<uint32_t>& before);
   uint32_t max_samples() const { return static_cast<uint32_t>(params_.samples); }

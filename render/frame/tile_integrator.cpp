@@ -39,7 +39,8 @@ bool SampleIntegrator::trace_pixel(const TileTask& task, int x, int y, uint32_t 
   for (uint32_t sample = task.film().samples(x, y); sample < goal; ++sample) {
     if (sample % kSamplesPerCheck == 0 && task.must_stop()) return false;
     trace(task.left() + x, task.top() + y, sample, scratch);
-    task.add(x, y, scratch);
+    if (task.add(x, y, scratch) && task.film().layers().noise)
+      task.film().add_estimate(x, y, luminance(scratch.sample.radiance), 1);
   }
   return true;
 }

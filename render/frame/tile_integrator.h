@@ -49,9 +49,11 @@ class TileTask {
     return frame_.job.progress.cancelled() || (frame_.saver && frame_.saver->due()) ||
            (frame_.interrupts && frame_.interrupts());
   }
-  /// Adds the sample in `scratch` to a pixel of the film.
-  void add(int x, int y, SampleScratch& scratch) const {
-    if (!frame_.film.add(x, y, scratch.sample, scratch.by_layer)) ++scratch.rejected;
+  /// Adds the sample in `scratch` to a pixel of the film. Returns false if it was rejected.
+  bool add(int x, int y, SampleScratch& scratch) const {
+    const bool added = frame_.film.add(x, y, scratch.sample, scratch.by_layer);
+    if (!added) ++scratch.rejected;
+    return added;
   }
   /// Call after samples were added.
   void advance(uint64_t samples) const {

@@ -13,9 +13,15 @@ namespace {
 /// Memory of the samples of a tile.
 constexpr size_t kSampleBytes = size_t{4} << 20;
 constexpr uint32_t kMaxSamples = 64;
+constexpr size_t kEstimateBytes = 16;  // of a pixel's luminance
 constexpr size_t kPixels = static_cast<size_t>(FilmSums::kTileSide) * FilmSums::kTileSide;
 /// One in kPilotShare samples is traced first. From these, the others learn which lights arrive.
 constexpr uint32_t kPilotShare = 8;
+/// With noise layers, the samples of a pixel are divided into this many parts. Samples of different parts
+/// share no light, so that the parts differ by their whole noise.
+constexpr uint32_t kNoiseParts = 4;
+/// The pilot of adaptive sampling is divided into this many parts.
+constexpr uint32_t kPilotParts = 2;
 /// With so few samples, a first pass of one would find too few points that share light.
 constexpr int kFewSamples = 4;
 /// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
@@ -51,6 +57,12 @@ struct GatherTracer::Scratch final : SampleScratch {
   PathSharing paths;
   GatherPointStatistics gather_points;
   uint32_t first_sample = 0;  // the first of the samples that share light
+  struct Estimate {
+    double luminance = 0;  // sum over `samples`
+    uint32_t samples = 0;
+  };
+  static_assert(sizeof(Estimate) == kEstimateBytes);
+  std::vector<Estimate> estimates;  // of the last samples that share light, by pixel of the tile
 };
 
 GatherTracer::Memory GatherTracer::reserve(const FrameScene& scene, const Job& job) {
@@ -58,8 +70,10 @@ GatherTracer::Memory GatherTracer::reserve(const FrameScene& scene, const Job& j
   const auto tile =
       static_cast<int64_t>(scratch_bytes(scene.sources(), samples_at_once(scene), render.draws_visible()));
   const auto limit = static_cast<int64_t>(render.memory.bytes);
-  int tiles = job.workers.thread_count();
-  if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
+  const int threads = job.workers.thread_count();
+  int tiles = threads;
+  if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, threads));
+  job.ledger.add_elastic((threads - tiles) * tile);
   const auto far_lights =
       static_cast<int64_t>(render.gather.reuse ? FarLightSamples::bytes(scene.lights) : 0);
   Memory memory{tiles,
@@ -78,7 +92,7 @@ GatherTracer::GatherTracer(const FrameScene& scene, const Accel& accel, const Re
       far_lights_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
       options_(with(options, far_lights_)),
       memory_(std::move(memory)),
-      first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFewSamples),
+      first_alone_(scene.render.time_limit > 0 || (scene.render.samples > kFewSamples && !layers.noise)),
       shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, far_lights_, samples_at_once(scene)),
@@ -104,7 +118,17 @@ uint32_t GatherTracer::max_samples(size_t lights) {
 }
 
 uint32_t GatherTracer::together(uint32_t first, uint32_t end) const {
-  const uint32_t max = first == 0 && first_alone_ ? 1 : max_samples(scene_.sources());
+  const RenderParams& render = scene_.render;
+  uint32_t max = max_samples(scene_.sources());
+  const auto at_most = [&](int samples, uint32_t parts) {
+    max = std::min(max, (static_cast<uint32_t>(samples) + parts - 1) / parts);
+  };
+  const bool pilot = render.adaptive && first < static_cast<uint32_t>(render.adaptive->pilot);
+  if (pilot)
+    at_most(render.adaptive->pilot, kPilotParts);
+  else if (layers_.noise && !render.adaptive)
+    at_most(render.samples, kNoiseParts);
+  if (first == 0 && first_alone_) max = 1;
   return std::min(max, end - first);
 }
 
@@ -119,7 +143,7 @@ size_t GatherTracer::scratch_bytes(size_t lights, uint32_t samples, bool draws) 
   // One sample in kPilotShare is a pilot; at least one is.
   const size_t pilots = rays * sizeof(ShadowRays::Pilot) * (samples / kPilotShare + 1);
   return RecentGatherPoints::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
-         kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
+         kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double) + kEstimateBytes) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
 
@@ -217,6 +241,8 @@ void GatherTracer::add_scattered(uint32_t point, Scratch& scratch) const {
 /// Adds the samples of the last gather() to the film.
 void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
   const TileSamples& samples = scratch.samples;
+  const bool noise = layers_.noise;
+  scratch.estimates.assign(noise ? samples.pixels() : 0, {});
   auto seen = samples.seen_lights.begin();
   for (uint32_t i = 0; i < samples.samples.size(); ++i) {
     const TileSamples::Sample& from = samples.samples[i];
@@ -233,7 +259,17 @@ void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
       if (front.sample == i) scratch.sample.surface = front.of_pixel.surface;
       add_scattered(from.point, scratch);
     }
-    task.add(samples.x(from.pixel) - task.left(), samples.y(from.pixel) - task.top(), scratch);
+    const bool added =
+        task.add(samples.x(from.pixel) - task.left(), samples.y(from.pixel) - task.top(), scratch);
+    if (!noise || !added) continue;
+    scratch.estimates[from.pixel].luminance += luminance(scratch.sample.radiance);
+    ++scratch.estimates[from.pixel].samples;
+  }
+  for (uint32_t pixel = 0; pixel < scratch.estimates.size(); ++pixel) {
+    const auto [sum, count] = scratch.estimates[pixel];
+    if (count > 0)
+      task.film().add_estimate(samples.x(pixel) - task.left(), samples.y(pixel) - task.top(), sum / count,
+                               count);
   }
   scratch.gather_points += {.count = static_cast<int64_t>(samples.zone_of_gather_point.size()),
                             .samples = static_cast<int64_t>(samples.points.size())};

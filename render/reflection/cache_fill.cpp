@@ -24,6 +24,8 @@ constexpr double kTimeShare = 0.25;
 
 CacheFill::Memory CacheFill::reserve(const FrameScene& scene, const Job& job) {
   const CachePlan plan = CachePlan::fitting(scene, job.ledger);
+  if (scene.render.gather.memory.bytes == 0)
+    job.ledger.add_elastic(CachePlan::with_slices(scene, 1).bytes - plan.bytes);
   return {plan, pelage::reserve(job.ledger, MemoryTag::kReflectionCache, plan.bytes,
                                 "the reflection cache (render.gather.cache: false needs none)")};
 }

@@ -20,8 +20,12 @@ constexpr double kAtOnce = 4;  // paths per pixel and round, at most
 /// More samples add no more paths: cells have enough, and the picture must begin some time.
 constexpr int kMostSamples = 1024;
 
+/// With adaptive sampling, most pixels get far fewer samples than the max.
+constexpr int kMostAdaptiveSamples = 64;
+
 double paths_per_pixel(const RenderParams& render) {
-  return double{render.gather.cache_paths} * std::min(render.samples, kMostSamples);
+  const int most = render.adaptive ? kMostAdaptiveSamples : kMostSamples;
+  return double{render.gather.cache_paths} * std::min(render.samples, most);
 }
 
 constexpr size_t kMostTiles = 32;  // whose paths are added up at once

@@ -7,9 +7,10 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
   static const Schema<AdaptiveParams> table = [] {
     Schema<AdaptiveParams> s(
         "adaptive",
-        "Adaptive sampling: takes more samples in noisy pixels. A pilot pass over the frame "
-        "decides the number of samples of each pixel, without bias. `samples` of render "
-        "is then the maximum per pixel.");
+        "Adaptive sampling: takes more samples where the picture is noisy. A pilot pass over the frame "
+        "decides the number of samples of each pixel, without bias. With `integrator: gather` or "
+        "`filter_samples: splatted`, it decides the number of samples of each tile of 16 x 16 pixels, with a "
+        "bias far below the noise. `samples` of render is then the maximum per pixel.");
     s.set_example(R"(render:
   samples: 1024   # the maximum per pixel
   adaptive: {noise: 0.02})");

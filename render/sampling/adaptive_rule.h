@@ -26,7 +26,7 @@ struct Pilot {
   std::vector<PilotPixel> pixels;
 };
 
-// In the following, pixels form a chessboard of two colours.
+// In the rule of pixels, pixels form a chessboard of two colours.
 
 /// Decides which pixels need the whole pilot. `probe`: the first part of the pilot, which takes the same
 /// count of samples in every pixel. Returns 0 for a pixel if no sample of its neighbours hits a surface and
@@ -53,6 +53,21 @@ std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 /// Where brightness differs between neighbouring pixels, the mean of the neighbourhood hides dark pixels. The
 /// remaining noise is then slightly above the budget; frame_noise() measures it.
 std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max);
+
+/// The rule of tiles, for samples that link the pixels of a tile: squares of `side` pixels, of which all
+/// pixels get the same count.
+///
+/// Returns 0 for the pixels of a tile if no sample of the tile hits a surface and all its pixels have the
+/// same mean; otherwise 1.
+std::vector<uint8_t> tiles_need_full_pilot(const Pilot& probe, int side);
+
+/// Returns counts of samples as two_stage_counts() does, for tiles. The relative variance of a tile is the
+/// mean over its pixels of variance / squared mean of the surrounding 5 x 5 pixels. It comes from the tile's
+/// own pilot, because other tiles show other things. So the mean of the samples is not free of bias: tiles
+/// whose pilot has more variance by chance, such as a firefly, get more samples. But the variance is a mean
+/// over the whole tile, so counts hardly depend on the pilot of a single pixel.
+std::vector<float> two_stage_tile_counts(const Pilot& pilot, int side, const AdaptiveParams& params,
+                                         uint32_t max);
 
 /// Rounds a sample count to the nearest number of the form 4, 5, 6 or 7 times a power of two. Counts up to 4
 /// are rounded up to an integer instead. The samples of a pixel are a sequence in which every aligned block

@@ -71,7 +71,7 @@ struct BvhParams {
 
 /// `render:` of a scene.
 struct RenderParams {
-  Integrator integrator = Integrator::kPath;
+  Integrator integrator = Integrator::kGather;
   GatherParams gather;
   AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;

@@ -183,7 +183,8 @@ TEST(PixelWhy, CountsGrowthsOfAChunk) {
   ExplainedScene scene({{"grooms.coat.operators", "[{length: {value: 0.4}}, {width: {root: 0.02}}]"},
                         {"grooms.coat.strands", "20000"},
                         {"grooms.coat.points", "16"},
-                        {"grooms.coat.leaf_strands", "500"}});
+                        {"grooms.coat.leaf_strands", "500"},
+                        {"render.integrator", "path"}});  // `gather` traces the whole tile of a pixel
   const PixelWhy first = some_strand(scene);
   EXPECT_GT(first.cost.strands_grown, 0);
   EXPECT_LE(first.chunk->strands, 500u);

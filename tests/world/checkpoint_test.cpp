@@ -34,8 +34,11 @@ class CheckpointTest : public testing::Test {
  protected:
   using Bytes = std::vector<std::vector<std::byte>>;
 
+  /// With the integrator `path`, unless overridden: it asks often whether its state is due.
   SceneDescription scene(const std::vector<Override>& overrides = {}) const {
-    return load_scene(scene_.path("scene.yaml"), overrides);
+    std::vector<Override> all{{"render.integrator", "path"}};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return load_scene(scene_.path("scene.yaml"), all);
   }
   std::filesystem::path file() const { return folder_.path() / "a.checkpoint"; }
   std::filesystem::path picture() const { return folder_.path() / "a.exr"; }
@@ -91,6 +94,7 @@ TEST_F(CheckpointTest, ARenderInPiecesGivesTheFilmOfOneRun) {
       {{"render.samples", "40"}, {"image.noise_layers", "true"}},
       {{"render.samples", "40"}, {"image.filter_samples", "splatted"}},
       {{"render.samples", "40"}, {"render.integrator", "gather"}},
+      {{"render.samples", "40"}, {"render.integrator", "gather"}, {"image.noise_layers", "true"}},
       {{"render.samples", "40"}, {"render.integrator", "gather"}, {"render.gather.reuse", "false"}}};
   for (size_t i = 0; i < settings.size(); ++i) {
     const auto [whole, ended] = render_some(settings[i], nullptr, kNever, 1);

@@ -18,6 +18,7 @@ class MotionVectors : public testing::Test {
             const std::function<V3f(const V3f&)>& next) {
     QuietJob job;
     if (scene_path == scene_.scene()) overrides.push_back(kColor);
+    overrides.push_back({"render.integrator", "path"});  // the picture is too coarse for other samples
     const SceneDescription scene = load_scene(scene_path, overrides);
     const auto assets = load_assets(scene, job);
     const World world = compose(scene, *assets, frame, job);

@@ -148,14 +148,6 @@ TEST_F(SceneSchema, OverridesWin) {
             Lines{"--set render.sampels: unknown key 'sampels' in render; did you mean 'samples'?"});
 }
 
-TEST_F(SceneSchema, SplattedSamplesAreNotAdaptive) {
-  const Override splatted{"image.filter_samples", "splatted"};
-  EXPECT_EQ(load(kScene, {splatted}).image.filter_samples, FilterSamples::kSplatted);
-  EXPECT_EQ(problems(kScene, {splatted, {"render.adaptive", "{}"}}),
-            Lines{"--set image.filter_samples: `filter_samples: splatted` does not work with `adaptive` "
-                  "sampling; remove one of them"});
-}
-
 TEST_F(SceneSchema, EventLayersNeedLightLayers) {
   const std::string scene = kScene, message = ": `event_layers` needs `light_layers: true`";
   EXPECT_FALSE(load(kScene).image.event_layers);
@@ -166,18 +158,13 @@ TEST_F(SceneSchema, EventLayersNeedLightLayers) {
             Lines{"--set image.event_layers" + message});
 }
 
-TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
-  const Override gather{"render.integrator", "gather"};
+TEST_F(SceneSchema, SettingsOfGather) {
+  const Override gather{"render.integrator", "gather"}, path{"render.integrator", "path"};
+  EXPECT_EQ(load(kScene).render.integrator, Integrator::kGather);
   EXPECT_EQ(load(kScene, {gather}).image.filter_samples, std::nullopt);
   const GatherParams params = load(kScene, {gather, {"render.gather", "{spacing: 2}"}}).render.gather;
   EXPECT_EQ(params.spacing, 2);
   EXPECT_TRUE(params.reuse);
-  EXPECT_EQ(problems(kScene, {gather, {"render.adaptive", "{}"}}),
-            Lines{"--set render.adaptive: `adaptive` does not work with `integrator: gather`; remove one of "
-                  "them"});
-  EXPECT_EQ(problems(kScene, {gather, {"image.noise_layers", "true"}}),
-            Lines{"--set image.noise_layers: `noise_layers` does not work with `integrator: gather`; remove "
-                  "one of them"});
   const Override raster{"render.gather", "{visibility: raster}"};
   EXPECT_EQ(load(kScene, {gather, raster}).render.gather.visibility, GatherVisibility::kRaster);
   for (const Override& other : {Override{"render.curves", "round"}, Override{"render.accel", "embree"}}) {
@@ -190,7 +177,7 @@ TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
             Lines{"--set render.gather: `cache: true` needs `reuse: true`"});
   EXPECT_FALSE(load(kScene, {gather, {"render.gather", "{cache: false, reuse: false}"}}).render.gather.reuse);
   EXPECT_TRUE(load(kScene, {gather, raster}).warnings.empty());
-  const std::vector<Problem> warnings = load(kScene, {raster}).warnings;
+  const std::vector<Problem> warnings = load(kScene, {path, raster}).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].message, "`visibility: raster` has no effect without `integrator: gather`");
   // Without a request, curves that cannot be drawn are traced.

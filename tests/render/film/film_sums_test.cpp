@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kWidth = 37, kHeight = 21;  // three tiles by two, the last ones cut off
 constexpr size_t kChannels = 2;
+const std::vector<uint32_t> kEqual(static_cast<size_t>(kWidth* kHeight), 1);  // counts of samples
 
 struct Sample {
   int x, y;
@@ -82,7 +83,7 @@ TEST(FilmSums, SplattedPixelsAreFilteredMeansOfAllSamplesAround) {
         }
         for (size_t c = 0; c < kChannels; ++c) {
           const double expected = weights > 0 ? values[c] / weights : 0;
-          ASSERT_NEAR(sums.mean(x, y, c), expected, 1e-5 * (1 + expected)) << x << " " << y;
+          ASSERT_NEAR(sums.mean(x, y, c, kEqual), expected, 1e-5 * (1 + expected)) << x << " " << y;
         }
       }
     }
@@ -93,10 +94,32 @@ TEST(FilmSums, DrawnSamplesCountForTheirOwnPixel) {
   FilmSums sums(kWidth, kHeight, kChannels, std::nullopt);
   add(sums, {16, 15, V2f(1.4f, -1.2f), {3, 4}});
   add(sums, {16, 15, V2f(0), {5, 0}});
-  EXPECT_EQ(sums.mean(16, 15, 0), 4);
-  EXPECT_EQ(sums.mean(16, 15, 1), 2);
-  EXPECT_EQ(sums.mean(15, 15, 0), 0);
-  EXPECT_EQ(sums.mean(17, 14, 1), 0);
+  EXPECT_EQ(sums.mean(16, 15, 0, kEqual), 4);
+  EXPECT_EQ(sums.mean(16, 15, 1, kEqual), 2);
+  EXPECT_EQ(sums.mean(15, 15, 0, kEqual), 0);
+  EXPECT_EQ(sums.mean(17, 14, 1, kEqual), 0);
+}
+
+/// Twenty times as many samples in one tile change no pixel, if they are the same ones.
+TEST(FilmSums, TilesCountEquallyWhateverTheirSamples) {
+  FilmSums once(kWidth, kHeight, kChannels, PixelFilter::kBlackmanHarris);
+  FilmSums more(kWidth, kHeight, kChannels, PixelFilter::kBlackmanHarris);
+  std::vector<uint32_t> counts = kEqual;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      Sample sample = random_sample(static_cast<uint64_t>(y * kWidth + x));
+      sample.x = x;
+      sample.y = y;
+      const bool in_tile = x < FilmSums::kTileSide && y < FilmSums::kTileSide;
+      add(once, sample);
+      for (int i = 0; i < (in_tile ? 20 : 1); ++i) add(more, sample);
+      if (in_tile) counts[static_cast<size_t>(y * kWidth + x)] = 20;
+    }
+  }
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x)
+      ASSERT_NEAR(more.mean(x, y, 1, counts), once.mean(x, y, 1, kEqual), 1e-4) << x << " " << y;
+  }
 }
 
 /// Tiles may be traced in any order; only within a tile do samples follow each other.
@@ -114,7 +137,7 @@ TEST(FilmSums, OrderOfTilesDoesNotMatter) {
     }
   }
   for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(forward.mean(x, y, 1), backward.mean(x, y, 1));
+    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(forward.mean(x, y, 1, kEqual), backward.mean(x, y, 1, kEqual));
   }
 }
 

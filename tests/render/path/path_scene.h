@@ -24,6 +24,7 @@ class PathScene {
     image.width = width;
     image.height = height;
     image.filter = PixelFilter::kBox;
+    render.integrator = Integrator::kPath;
     render.samples = 64;
     camera.position = V3f(0, 0, 10);
   }
