@@ -17,6 +17,7 @@
 #include "cli/post_flags.h"
 #include "cli/rib_flags.h"
 #include "groom/strands/curve_basis_names.h"
+#include "starter/animal_coat.h"
 #include "starter/coat_look.h"
 
 namespace pelage {
@@ -205,7 +206,9 @@ void add_new(CLI::App& app, Options& options) {
   command->add_option("-o,--output", options.output, "Scene file to write")
       ->required()
       ->type_name("FUR.yaml");
-  command->add_option("--preset", options.starter.preset, "Coat: " + presets + " (default: the first)")
+  command
+      ->add_option("--preset", options.starter.preset,
+                   "Coat: " + presets + " (default: the first); or of an animal: " + animal_names())
       ->type_name("NAME");
   command
       ->add_option("--facing", options.starter.facing,

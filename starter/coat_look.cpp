@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "starter/animal_preset.h"
 
 namespace pelage {
 namespace {
@@ -104,11 +105,15 @@ constexpr CoatLook kLooks[] = {
 
 std::span<const CoatLook> coat_looks() { return kLooks; }
 
-const CoatLook& coat_look(const std::string& name) {
+CoatLook coat_look(const std::string& name) {
   std::vector<std::string> names;
   for (const CoatLook& look : kLooks) {
     if (look.name == name) return look;
     names.emplace_back(look.name);
+  }
+  for (const AnimalCoat& animal : animal_coats()) {
+    if (animal.name == name) return proportional_look(animal);
+    names.emplace_back(animal.name);
   }
   throw Error(ErrorKind::kArguments, "--preset " + quote(name) + " is not known" + suggest(name, names));
 }

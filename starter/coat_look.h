@@ -8,6 +8,8 @@
 
 namespace pelage {
 
+struct AnimalCoat;
+
 /// A kind of coat, whatever animal wears it. Lengths are fractions of BodyShape::size() or of the strand.
 struct CoatLook {
   const char* name;
@@ -26,12 +28,14 @@ struct CoatLook {
   float turns;     ///< of curls
   int points;      ///< control points of a strand
   Rgb root, tip;   ///< colours of a dense coat
+  const AnimalCoat* animal = nullptr;  ///< whose hair it is; then `tip` is unused
 };
 
-/// All looks; the first is the default.
+/// The looks that are no animal's; the first is the default.
 std::span<const CoatLook> coat_looks();
 
-/// Returns the look with this name. Throws Error (kArguments) with the nearest name if there is none.
-const CoatLook& coat_look(const std::string& name);
+/// Returns the look, or the coat of the animal (animal_coats()), with this name. Throws Error (kArguments)
+/// with the nearest name if there is none.
+CoatLook coat_look(const std::string& name);
 
 }  // namespace pelage

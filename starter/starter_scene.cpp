@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/value_readers.h"
+#include "starter/animal_coat.h"
 
 namespace pelage {
 namespace {
@@ -149,15 +150,23 @@ grooms:
   if (look.curl > 0)
     text += fmt::format("      - curl: {{radius: {}, turns: {}, angle_variation: 0.15, start: 0.3}}\n",
                         number(look.curl * length), number(look.turns));
+  else  // straight hair is not as straight as a needle: each strand bows in its own direction
+    text += fmt::format(
+        "      - curl: {{radius: {}, turns: 0.7, start: 0.6}}   # every strand bows its own way\n",
+        number(0.03f * length));
   text += fmt::format("      - frizz: {{amplitude: {}, frequency: 2}}\n", number(look.frizz * length));
-  text += fmt::format("      - width: {{root: {}, tip: {}, profile: 1.5, variation: 0.3}}\n", number(width),
+  text += fmt::format("      - width: {{root: {}, tip: {}, profile: 2.5, variation: 0.3}}\n", number(width),
                       number(0.2 * width));
+  const std::string knots = look.animal ? look.animal->knots
+                                        : fmt::format("[[0, {}], [0.6, {}], [1, {}]]", color(look.root),
+                                                      color(look.tip * 0.8f), color(look.tip));
+  if (knots.empty()) return text;  // the material has pigments
   text += fmt::format(
       R"(      - color:
           variation: 0.25
-          value: {{product: [{{ramp: {{along: strand, knots: [[0, {}], [0.6, {}], [1, {}]]}}}}, {{noise: {{frequency: {}, amplitude: 0.3, offset: 1}}}}]}}   # root to tip, in patches
+          value: {{product: [{{ramp: {{along: strand, knots: {}}}}}, {{noise: {{frequency: {}, amplitude: 0.3, offset: 1}}}}]}}   # root to tip, in patches
 )",
-      color(look.root), color(look.tip * 0.8f), color(look.tip), number(3 / size));
+      knots, number(3 / size));
   return text;
 }
 
@@ -174,7 +183,7 @@ std::string look_text(const StarterScene& starter) {
       R"(
 materials:
   hide: {{model: lambert, color: {}}}
-  fur: {{model: cone-shell, color: {{attribute: color}}}}
+  fur: {}
 
 characters:
   animal: {{parts: [{{skin: body, material: hide, grooms: {{coat: fur}}}}]}}
@@ -186,8 +195,11 @@ lights:   # sizes and distances are in proportion to the body
 
 render: {{lod: {{enabled: false}}}}   # one animal from near: every hair
 )",
-      color(look.root * 0.8f), at(2.2f, -0.4f, 2.2f), target, up, number(2 * radius), number(2 * radius),
-      at(-2.4f, -1.6f, 1.8f), target, up, number(2.5f * radius), number(1.5f * radius));
+      color(look.root * 0.8f),
+      look.animal ? fmt::format("{{preset: {}}}", look.name)
+                  : "{model: cone-shell, color: {attribute: color}}",
+      at(2.2f, -0.4f, 2.2f), target, up, number(2 * radius), number(2 * radius), at(-2.4f, -1.6f, 1.8f),
+      target, up, number(2.5f * radius), number(1.5f * radius));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "world/asset_files.h"
 #include "world/camera_frame.h"
 #include "world/leaf_sizes.h"
+#include "world/presets.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"
 
@@ -336,6 +337,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   SceneDescription scene;
   RenamedKeys renamed{SceneDescription::schema()};
   if (std::optional<Value> document = any_document(path, overrides, use, problems, renamed)) {
+    expand_presets(*document, problems);
     expand_regions(*document, problems);
     const ContentHash hash = document_hash(*document);
     scene.parts = scene_parts(*document);

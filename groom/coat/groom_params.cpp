@@ -62,6 +62,26 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
   return table;
 }
 
+namespace {
+
+void add_preset_keys(Schema<GroomParams>& s) {
+  s.key("preset", &GroomParams::preset,
+        {.help = "Coat of an animal, in real measures: rat, mouse, rabbit, cat-short, cat-long, dog-wire, "
+                 "fox, horse, panther, polar-bear, sheep, human-straight, human-curly, human-blond or "
+                 "human-red. It stands for a density, points and operators, scaled by `units`; "
+                 "docs/PRESETS.md lists them with their sources. Keys of the groom override them. In "
+                 "`operators`, the first operator of a name changes the preset's; others follow it. The "
+                 "direction of comb, for example, usually needs to be given"});
+  s.key("preset_density", &GroomParams::preset_density,
+        {.help = "Fraction of the measured density that a preset grows. Strands become thicker where "
+                 "necessary, so that the coat covers the skin as well as before",
+         .min = 0,
+         .max = 1,
+         .above_min = true});
+}
+
+}  // namespace
+
 const Schema<GroomParams>& GroomParams::schema() {
   static const Schema<GroomParams> table = [] {
     Schema<GroomParams> s("groom",
@@ -78,6 +98,7 @@ const Schema<GroomParams>& GroomParams::schema() {
       - comb: {direction: [0, -0.3, -1], lift: 0.35}
       - width: {root: 0.008, tip: 0.001}
   whiskers: {strands_file: whiskers.hair, skin: rat, role: whisker})");
+    add_preset_keys(s);
     s.key("skin", &GroomParams::skin,
           {.help = "Skin on which the coat grows", .default_text = "none, if strands_file is given"});
     s.key("strands_file", &GroomParams::strands_file,

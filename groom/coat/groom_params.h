@@ -24,6 +24,9 @@ struct GroomCacheParams {
 
 /// One entry of `grooms:`.
 struct GroomParams {
+  /// As written; expand_presets() has put the keys that the name stands for in its place (world/presets.h).
+  NameReference preset;
+  float preset_density = 1;
   NameReference skin;                     ///< name of a skin; empty for strands of a file without a skin
   AssetPath strands_file;                 ///< file with the strands; empty: strands grow from follicles
   std::optional<CurveBasis> basis;        ///< for strands_file: curve basis, if the file does not state it

@@ -52,6 +52,7 @@ template <class P>
 void absorb(const FibreOracle& oracle, P& p) {
   p.absorption = Rgb(oracle.absorption);
   p.preset = HairPreset::kNone;
+  p.melanin.reset();
   p.eumelanin.reset();
   p.pheomelanin.reset();
   p.alpha = 0;

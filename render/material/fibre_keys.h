@@ -8,8 +8,8 @@
 namespace pelage {
 
 inline constexpr const char* kColorHelp =
-    "Colour of a dense coat, converted to absorption. Unused if a preset, absorption, eumelanin or "
-    "pheomelanin is given";
+    "Colour of a dense coat, converted to absorption. Unused if a preset, absorption, melanin, eumelanin "
+    "or pheomelanin is given";
 
 template <class P>
 void add_color_keys(Schema<P>& s, const char* help) {
@@ -35,6 +35,8 @@ void add_absorption_keys(Schema<P>& s) {
                  "pigment is added",
          .min = 0,
          .max = 1000});
+  s.key("melanin", static_cast<std::optional<MelaninParams> P::*>(&P::melanin),
+        {.help = "Both pigments in one block; replaces those of the preset", .default_text = "none"});
   s.key("eumelanin", static_cast<Amount>(&P::eumelanin),
         {.help = "Concentration of the black and brown pigment: 0.3 is blond, 1.3 brown, 8 black",
          .min = 0,

@@ -169,11 +169,33 @@ Pigments pigments_of(HairPreset preset) {
 
 }  // namespace
 
+const Schema<MelaninParams>& MelaninParams::schema() {
+  static const Schema<MelaninParams> table = [] {
+    Schema<MelaninParams> s(
+        "melanin",
+        "Pigments of hair, as a way to give its colour: eumelanin is black to brown, "
+        "pheomelanin red to yellow. The fibre absorbs per radius eumelanin x (0.419, 0.697, "
+        "1.37) + pheomelanin x (0.187, 0.4, 1.05) [dEon11, after Donner and Jensen 2006].");
+    s.set_example(R"(materials:
+  hair: {model: chiang, melanin: {eumelanin: 0.2, pheomelanin: 0.6}}   # red)");
+    s.key("eumelanin", &MelaninParams::eumelanin,
+          {.help = "Concentration of the black and brown pigment: 0.3 is blond, 1.3 brown, 8 black",
+           .min = 0,
+           .max = 100});
+    s.key("pheomelanin", &MelaninParams::pheomelanin,
+          {.help = "Concentration of the red and yellow pigment", .min = 0, .max = 100});
+    return s;
+  }();
+  return table;
+}
+
 std::optional<Rgb> given_absorption(const AbsorptionParams& params) {
-  if (!params.absorption && !params.eumelanin && !params.pheomelanin && params.preset == HairPreset::kNone)
+  if (!params.absorption && !params.melanin && !params.eumelanin && !params.pheomelanin &&
+      params.preset == HairPreset::kNone)
     return std::nullopt;
   // A given absorption overrides the preset.
-  const Pigments pigments = params.absorption ? Pigments{} : pigments_of(params.preset);
+  Pigments pigments = params.absorption ? Pigments{} : pigments_of(params.preset);
+  if (params.melanin) pigments = {params.melanin->eumelanin, params.melanin->pheomelanin};
   return params.absorption.value_or(Rgb(0)) +
          melanin_absorption(params.eumelanin.value_or(pigments.eumelanin),
                             params.pheomelanin.value_or(pigments.pheomelanin));

@@ -70,6 +70,12 @@ struct EnumNames<HairPreset> {
                                           "fox",       "mouse",       "panther"};
 };
 
+/// Concentrations of both pigments of hair.
+struct MelaninParams {
+  float eumelanin = 0, pheomelanin = 0;
+  static const Schema<MelaninParams>& schema();
+};
+
 /// Absorption of a translucent fibre. If none of these is given, the absorption follows from
 /// FibreParams::color.
 struct AbsorptionParams {
@@ -77,8 +83,9 @@ struct AbsorptionParams {
   /// Coefficient per radius. The absorption of a given pigment is added to it. If it is given, `preset` is
   /// not used.
   std::optional<Rgb> absorption;
-  std::optional<float> eumelanin;    ///< concentration of the black and brown pigment
-  std::optional<float> pheomelanin;  ///< concentration of the red and yellow pigment
+  std::optional<MelaninParams> melanin;  ///< both pigments; replaces those of `preset`
+  std::optional<float> eumelanin;        ///< concentration of the black and brown pigment
+  std::optional<float> pheomelanin;      ///< concentration of the red and yellow pigment
 };
 
 /// Height of the lobes: the published height, or half of it, which roughly conserves energy.

@@ -55,7 +55,7 @@ void add_medulla_keys(Schema<P>& s) {
   };
   add_color_keys(s,
                  "Colour of a dense coat, converted to the absorption of cortex and medulla. Unused if a "
-                 "preset, or sigma_ca and sigma_ma, are given");
+                 "preset, melanin, or sigma_ca and sigma_ma, are given");
   s.key("preset", static_cast<YanPreset P::*>(&P::preset),
         {.help = "Fibre parameters to start from; the keys below change them. row-a, row-b and row-c are "
                  "parameter sets from other implementations of this model. Those implementations say that "
@@ -77,6 +77,8 @@ void add_medulla_keys(Schema<P>& s) {
          0.05, 10);
   absorption("sigma_ca", &MedullaParams::sigma_ca, "Absorption coefficient of the cortex");
   absorption("sigma_ma", &MedullaParams::sigma_ma, "Absorption coefficient of the medulla");
+  s.key("melanin", static_cast<std::optional<MelaninParams> P::*>(&P::melanin),
+        {.help = "Pigments, in place of sigma_ca and sigma_ma", .default_text = "none"});
   s.key("field", static_cast<FibreField P::*>(&P::field), field_key());
 }
 
@@ -92,6 +94,7 @@ YanOptics MedullaParams::optics() const {
   o.sigma_ms = sigma_ms.value_or(o.sigma_ms);
   o.g = g.value_or(o.g);
   o.layers = layers.value_or(o.layers);
+  if (melanin) o.sigma_ca = o.sigma_ma = melanin_absorption(melanin->eumelanin, melanin->pheomelanin);
   if (sigma_ca) o.sigma_ca = sigma_ca;
   if (sigma_ma) o.sigma_ma = sigma_ma;
   return o;

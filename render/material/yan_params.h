@@ -49,6 +49,8 @@ struct MedullaParams : FibreParams {
   YanPreset preset = YanPreset::kNone;
   std::optional<float> alpha, beta_m, beta_n, eta, kappa, sigma_ms, g, layers;
   std::optional<Rgb> sigma_ca, sigma_ma;
+  std::optional<MelaninParams>
+      melanin;  ///< absorption of cortex and medulla, if sigma_ca and sigma_ma are empty
   FibreField field = FibreField::kNear;
 
   /// Returns the preset, with the members that are given in place of its values.

@@ -49,6 +49,16 @@ TEST(StarterScene, NamesThatYamlWouldMisreadAreQuoted) {
   EXPECT_TRUE(has(text, R"(mesh: "cow\x0arender: \"x\".obj", scheme)")) << text;
 }
 
+TEST(StarterScene, AnimalsHaveTheirHairInProportion) {
+  StarterScene fox = starter(1);
+  fox.look = coat_look("fox");
+  const std::string text = starter_scene_text(fox);
+  EXPECT_TRUE(has(text, "fur: {preset: fox}")) << text;
+  EXPECT_TRUE(has(text, "length: {value: 0.315,")) << text;  // 50 mm on a body of 400 mm
+  fox.look = coat_look("human-blond");
+  EXPECT_FALSE(has(starter_scene_text(fox), "- color:"));  // pigments colour it
+}
+
 TEST(CoatLook, UnknownNamesAreRefusedWithTheNearest) {
   EXPECT_STREQ(coat_look("woolly").name, "woolly");
   try {

@@ -167,6 +167,20 @@ TEST(Absorption, OfColoursAndPigments) {
   EXPECT_EQ(by_color(Rgb(1)), Rgb(0));
   EXPECT_EQ(by_color(Rgb(0)), by_color(Rgb(1e-3f)));
   EXPECT_NEAR(melanin_absorption(1.3f, 0).y, 1.3 * 0.697, 1e-6);
+  // Of each pigment alone, and of the mixture of a material [dEon11].
+  EXPECT_EQ(melanin_absorption(1, 0), Rgb(0.419f, 0.697f, 1.37f));
+  EXPECT_EQ(melanin_absorption(0, 1), Rgb(0.187f, 0.4f, 1.05f));
+  ChiangParams red;
+  red.preset = HairPreset::kHumanBlack;  // the block replaces it
+  red.melanin = {0.2f, 0.6f};
+  EXPECT_EQ(*given_absorption(red), melanin_absorption(0.2f, 0.6f));
+  red.pheomelanin = 1.0f;
+  EXPECT_EQ(*given_absorption(red), melanin_absorption(0.2f, 1));
+  YanFastParams fur;
+  fur.melanin = {0.2f, 0.6f};
+  fur.sigma_ma = Rgb(0.5f);
+  EXPECT_EQ(*fur.optics().sigma_ca, melanin_absorption(0.2f, 0.6f));
+  EXPECT_EQ(*fur.optics().sigma_ma, Rgb(0.5f));
 }
 
 }  // namespace
