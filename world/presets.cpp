@@ -120,9 +120,40 @@ void expand_groom(Value& groom, double units_per_mm, Problems& problems) {
   }
 }
 
+/// The table that reads a material with a `model`; nullptr if there is no such model.
+const SchemaInfo* table_of(Value material) {
+  const SchemaInfo* table = nullptr;
+  Value named = Value::map({}, {{"material", {}, std::move(material)}});
+  SceneDescription::schema().find("materials")->visit_blocks(named, [&](Value&, const SchemaInfo& of) {
+    table = &of;
+  });
+  return table;
+}
+
+/// Puts the colour of an animal into a material that has a model of its own. Names that are presets of the
+/// model itself, such as `fox` of chiang, keep that meaning.
+void expand_color(Value& material, const SchemaInfo& table) {
+  const Value preset = *material.find("preset");
+  const AnimalCoat* animal = preset.is_scalar() ? find_animal_coat(preset.text()) : nullptr;
+  const KeyInfo* own = table.find("preset");
+  if (!animal || (own && (own->type + " ").find(" " + preset.text() + " ") != std::string::npos)) return;
+  erase(material, "preset");
+  Value expanded = parsed(material_text(*animal), preset.position());
+  for (const char* key : {"color", "melanin"}) {
+    Value* value = expanded.find(key);
+    const bool is_given = material.find("color") || material.find("absorption") || material.find(key);
+    if (value && !is_given && table.find(key))
+      material.entries().push_back({key, preset.position(), std::move(*value)});
+  }
+}
+
 void expand_material(Value& material, Problems& problems) {
   Value* preset = material.find("preset");
-  if (!preset || material.find("model")) return;
+  if (!preset) return;
+  if (material.find("model")) {
+    if (const SchemaInfo* table = table_of(material)) expand_color(material, *table);
+    return;
+  }
   const AnimalCoat* animal = animal_of(*preset, problems);
   // Without a model, the reader would report a second mistake.
   Value expanded = animal ? parsed(material_text(*animal), preset->position())

@@ -12,6 +12,11 @@ constexpr int kWalks = 4096;
 constexpr std::array<float, 12> kRoots = {0.02f, 0.04f, 0.08f, 0.14f, 0.22f, 0.33f,
                                           0.48f, 0.7f,  1.0f,  1.5f,  2.4f,  6.0f};
 
+/// Square roots of the gains per radius at which the brightness is computed for fibres that lose light.
+constexpr std::array<float, 6> kGains = {0.06f, 0.1f, 0.14f, 0.18f, 0.22f, 0.27f};
+/// A medium that reflects less than this part of what the reference does loses light in its fibres.
+constexpr double kLossless = 0.97;
+
 /// The root of the absorption where the decreasing brightness over kRoots equals `wanted`; the brightness at
 /// 0 is taken as 1, or more if needed.
 float root_of(const std::array<double, kRoots.size()>& brightness, double wanted) {
@@ -33,7 +38,7 @@ float root_of(const std::array<double, kRoots.size()>& brightness, double wanted
 const std::array<float, CoatColor::kColors> CoatColor::kColor = {1,    0.9f,  0.75f, 0.6f,   0.45f, 0.3f,
                                                                  0.2f, 0.12f, 0.06f, 0.015f, 0.001f};
 const std::array<float, CoatColor::kColors> CoatColor::kBrightness = {
-    1, 0.8876f, 0.7469f, 0.5949f, 0.4496f, 0.3079f, 0.2158f, 0.1424f, 0.0858f, 0.0377f, 0.0162f};
+    1, 0.9641f, 0.8253f, 0.6551f, 0.4860f, 0.3277f, 0.2264f, 0.1490f, 0.0889f, 0.0373f, 0.0153f};
 
 CoatColor::CoatColor(const Scatter& scatter, const Workers& workers) {
   std::array<double, kRoots.size()> brightness;
@@ -45,6 +50,30 @@ CoatColor::CoatColor(const Scatter& scatter, const Workers& workers) {
     }
   });
   for (int i = 0; i < kColors; ++i) root_[i] = root_of(brightness, kBrightness[i]);
+  add_gains(scatter, workers);
+}
+
+void CoatColor::add_gains(const Scatter& scatter, const Workers& workers) {
+  std::array<double, kGains.size() + 1> brightness;
+  const auto of = [&](float t) {
+    return tangle_reflectance([&](const TangleHit& hit, const V3f& u) { return scatter(t, hit, u); }, kWalks);
+  };
+  brightness[0] = of(0);
+  if (brightness[0] >= kLossless * kBrightness[0]) return;
+  workers.for_each(kGains.size(), 1, [&](const WorkRange& range) {
+    for (size_t i = range.begin; i < range.end; ++i) brightness[i + 1] = of(-kGains[i] * kGains[i]);
+  });
+  for (int i = 0; i < kColors; ++i) {
+    // White fur would take exactly as much as is lost; a little less keeps the light from growing.
+    const double wanted = kLossless * kBrightness[i];
+    for (size_t k = 0; k < kGains.size() && brightness[k] < wanted; ++k) {
+      if (brightness[k + 1] < wanted) continue;
+      const float before = k > 0 ? kGains[k - 1] : 0;
+      const auto share =
+          static_cast<float>(std::log(wanted / brightness[k]) / std::log(brightness[k + 1] / brightness[k]));
+      root_[i] = -(before + share * (kGains[k] - before));
+    }
+  }
 }
 
 Rgb CoatColor::operator()(const Rgb& color) const {
@@ -55,7 +84,7 @@ Rgb CoatColor::operator()(const Rgb& color) const {
     while (i + 2 < kColors && wanted < kColor[i + 1]) ++i;
     const float share = std::log(wanted / kColor[i]) / std::log(kColor[i + 1] / kColor[i]);
     const float root = root_[i] + share * (root_[i + 1] - root_[i]);
-    t[c] = root * root;
+    t[c] = root * std::abs(root);
   }
   return t;
 }

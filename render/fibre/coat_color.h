@@ -10,9 +10,11 @@
 namespace pelage {
 
 /// Converts the colour of dense fur to the absorption of a single fibre of a model, so that `color` means the
-/// same for every model. The reference is an infinite medium of Chiang fibres whose absorption follows the
-/// fit of [Chiang16]. A medium of the converted fibres has the same brightness as the reference. [Chiang16]
-/// made the fit for another scene, but the reference medium differs from `color` by only a few hundredths.
+/// same for every model. The reference is an infinite medium of combed Chiang fibres (FibreLay::coat()) whose
+/// absorption follows the fit of [Chiang16]. A medium of the converted fibres has the same brightness as the
+/// reference. [Chiang16] made the fit for another scene: the reference medium is up to 0.08 brighter than
+/// `color`. Combed fibres that let light through are brighter than a tangle of them, opaque ones are not, so
+/// the medium must be combed.
 ///
 /// Uses a table over the logarithm of the colour, computed by random walks on construction. The table is
 /// bit-identical for any number of threads.
@@ -23,8 +25,8 @@ class CoatColor {
   using Scatter = std::function<std::optional<FibreSample>(float, const TangleHit&, const V3f&)>;
   CoatColor(const Scatter& scatter, const Workers& workers);
 
-  /// Returns the absorption t of each channel; 0 in channels where even a fibre without absorption is too
-  /// dark.
+  /// Returns the absorption t of each channel. It is negative, a gain, where a fibre without absorption is
+  /// too dark because its model loses light; the medium then is 3 % darker than the reference.
   Rgb operator()(const Rgb& color) const;
 
   static constexpr int kColors = 11;
@@ -33,6 +35,8 @@ class CoatColor {
   static const std::array<float, kColors> kColor, kBrightness;
 
  private:
+  void add_gains(const Scatter& scatter, const Workers& workers);
+
   std::array<float, kColors> root_{};  // square root of t for each colour
 };
 

@@ -16,7 +16,7 @@ class NewTest(ProgramTest):
         return (self.path / "fur.yaml").read_text()
 
     def test_the_scene_of_every_preset_renders(self):
-        for preset in ("plush", "short", "long", "woolly", "wiry"):
+        for preset in ("plush", "short", "long", "woolly", "wiry", "fox", "human-curly"):
             self.new("--preset", preset, "--strands", "300", "--force")
             self.assertIn("strands: 300 ", self.scene())
             said = self.run_pelage("render", "fur.yaml", "-o", "fur.exr", "--quiet", "--samples", "1",

@@ -116,6 +116,18 @@ TEST(Presets, EveryValueCanBeOverridden) {
   EXPECT_EQ(hair.melanin->pheomelanin, 1);
 }
 
+TEST(Presets, OtherModelsTakeTheColourOnly) {
+  const Expanded found = expanded(
+      "materials:\n  a: {model: cone-shell, preset: fox}\n  b: {model: yan, preset: human-red}\n"
+      "  c: {model: chiang, preset: fox}\n");
+  ASSERT_TRUE(found.problems.empty()) << found.problems.front();
+  const auto& materials = found.scene.materials.items;
+  EXPECT_EQ(ValueReader<Field>::print(std::get<ConeShellParams>(materials[0].value).color),
+            "{attribute: color}");
+  EXPECT_EQ(std::get<YanParams>(materials[1].value).melanin->pheomelanin, 0.6f);
+  EXPECT_EQ(std::get<ChiangParams>(materials[2].value).preset, HairPreset::kFox);  // its own
+}
+
 TEST(Presets, MistakesAreOneLineWithTheNearestName) {
   EXPECT_EQ(
       expanded("grooms: {coat: {preset: polarbear, skin: ball}}\nmaterials: {fur: {preset: foks}}\n")

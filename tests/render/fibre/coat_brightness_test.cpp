@@ -21,34 +21,33 @@ TEST(Tangle, OfIsotropicScatterers) {
           sample.value.pdf = 0.25f / kPi;
           return std::optional(sample);
         },
-        20000);
+        20000, FibreLay::tangle());
     EXPECT_NEAR(found / expected, 1, 0.04) << albedo;
   }
 }
 
-/// The constants of the table are correct, and the fit of [Chiang16] gives the colour of a tangle.
+/// The constants of the table are correct, and the fit of [Chiang16] gives nearly the colour of a coat.
 TEST(CoatColor, BrightnessIsThatOfChiangFibres) {
   const FibreMaterial chiang{ChiangParams{}};
   for (int i = 2; i < CoatColor::kColors; i += 2) {
     const float color = CoatColor::kColor[i];
     const double found = brightness(chiang, color, 4000);
     EXPECT_NEAR(found / CoatColor::kBrightness[i], 1, 0.06) << color;
-    EXPECT_NEAR(CoatColor::kBrightness[i], color, 0.03);
+    EXPECT_NEAR(CoatColor::kBrightness[i], color, 0.08);
   }
 }
 
-/// `color` means the same for every model, except for the light that a surface reflects at any absorption.
+/// `color` means the same for every model. Even white fibres of the halved Marschner model lose light, which
+/// its colours make up for, apart from 3 %.
 TEST(CoatColor, EveryModelIsAsBright) {
   const MaterialParams models[] = {LambertCylinderParams{}, KajiyaKayParams{},
                                    ConeShellParams{},       DeonParams{},
                                    MarschnerParams{},       YanFastParams{}};
   for (const MaterialParams& params : models) {
     const FibreMaterial material(params, Workers(2));
-    const bool loses = std::holds_alternative<MarschnerParams>(params);  // even white fibres lose light
-    for (int i : {3, 6, 8}) {
-      if (loses && i < 6) continue;
+    for (int i : {1, 3, 6, 8}) {
       const float color = CoatColor::kColor[i];
-      EXPECT_NEAR(brightness(material, color, 3000) / CoatColor::kBrightness[i], 1, 0.1)
+      EXPECT_NEAR(brightness(material, color, 3000) / CoatColor::kBrightness[i], 1, 0.07)
           << params.index() << ' ' << color;
     }
   }
@@ -56,10 +55,13 @@ TEST(CoatColor, EveryModelIsAsBright) {
 
 /// The halved Marschner model fails to keep white fur white. A Gaussian in theta_h, halved, reflects a few
 /// hundredths less light than arrives; the more slanted the fibre, the larger the loss. In a mass of white
-/// fur, light is scattered dozens of times, so the fur is far from white. The same lobes with the
-/// longitudinal function of [dEon11] lose little light. So the model causes the loss, not its implementation.
-TEST(CoatColor, HalvedMarschnerIsTooDarkWhereItIsWhite) {
-  EXPECT_LT(brightness(FibreMaterial(MarschnerParams{}), 1, 2000), 0.85);
+/// fur, light is scattered dozens of times, so fur that absorbs nothing is far from white. The same lobes
+/// with the longitudinal function of [dEon11] lose little light. So the model causes the loss, not its
+/// implementation.
+TEST(CoatColor, HalvedMarschnerIsTooDarkWithoutAbsorption) {
+  MarschnerParams clear;
+  clear.absorption = Rgb(0);
+  EXPECT_LT(brightness(FibreMaterial(clear), 1, 2000), 0.85);
   EXPECT_GT(brightness(FibreMaterial(DeonParams{}), 1, 2000), 0.9);
 }
 
