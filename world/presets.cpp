@@ -116,6 +116,7 @@ void expand_groom(Value& groom, double units_per_mm, Problems& problems) {
   } else {  // a density, so that no message about a missing one follows
     const SourcePosition position = preset->position();
     erase(groom, "preset");
+    erase(groom, "preset_density");
     groom.entries().push_back({"density", position, Value::scalar(position, "1")});
   }
 }

@@ -13,9 +13,13 @@ constexpr std::array<float, 12> kRoots = {0.02f, 0.04f, 0.08f, 0.14f, 0.22f, 0.3
                                           0.48f, 0.7f,  1.0f,  1.5f,  2.4f,  6.0f};
 
 /// Square roots of the gains per radius at which the brightness is computed for fibres that lose light.
-constexpr std::array<float, 6> kGains = {0.06f, 0.1f, 0.14f, 0.18f, 0.22f, 0.27f};
-/// A medium that reflects less than this part of what the reference does loses light in its fibres.
-constexpr double kLossless = 0.97;
+/// Larger gains make up for the mean loss, but slanted fibres then gain, and light grows without bound on
+/// some paths.
+constexpr std::array<float, 4> kGains = {0.06f, 0.1f, 0.13f, 0.16f};
+/// A white medium that reflects less than this loses light in its fibres. Walks that are cut off lose 0.05.
+constexpr double kLossless = 0.9;
+/// Part of the reference that fibres with gains reach: a little less than all keeps light from growing.
+constexpr double kRegained = 0.97;
 
 /// The root of the absorption where the decreasing brightness over kRoots equals `wanted`; the brightness at
 /// 0 is taken as 1, or more if needed.
@@ -59,19 +63,16 @@ void CoatColor::add_gains(const Scatter& scatter, const Workers& workers) {
     return tangle_reflectance([&](const TangleHit& hit, const V3f& u) { return scatter(t, hit, u); }, kWalks);
   };
   brightness[0] = of(0);
-  if (brightness[0] >= kLossless * kBrightness[0]) return;
+  if (brightness[0] >= kLossless) return;
   workers.for_each(kGains.size(), 1, [&](const WorkRange& range) {
     for (size_t i = range.begin; i < range.end; ++i) brightness[i + 1] = of(-kGains[i] * kGains[i]);
   });
   for (int i = 0; i < kColors; ++i) {
-    // White fur would take exactly as much as is lost; a little less keeps the light from growing.
-    const double wanted = kLossless * kBrightness[i];
+    const double wanted = kRegained * kBrightness[i];
     for (size_t k = 0; k < kGains.size() && brightness[k] < wanted; ++k) {
-      if (brightness[k + 1] < wanted) continue;
       const float before = k > 0 ? kGains[k - 1] : 0;
-      const auto share =
-          static_cast<float>(std::log(wanted / brightness[k]) / std::log(brightness[k + 1] / brightness[k]));
-      root_[i] = -(before + share * (kGains[k] - before));
+      const double share = std::log(wanted / brightness[k]) / std::log(brightness[k + 1] / brightness[k]);
+      root_[i] = -(before + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (kGains[k] - before));
     }
   }
 }

@@ -26,7 +26,8 @@ class CoatColor {
   CoatColor(const Scatter& scatter, const Workers& workers);
 
   /// Returns the absorption t of each channel. It is negative, a gain, where a fibre without absorption is
-  /// too dark because its model loses light; the medium then is 3 % darker than the reference.
+  /// too dark because its model loses light; the medium then is 3 % darker than the reference, and up to a
+  /// quarter in the lightest colours.
   Rgb operator()(const Rgb& color) const;
 
   static constexpr int kColors = 11;

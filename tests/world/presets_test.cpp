@@ -130,10 +130,10 @@ TEST(Presets, OtherModelsTakeTheColourOnly) {
 
 TEST(Presets, MistakesAreOneLineWithTheNearestName) {
   EXPECT_EQ(
-      expanded("grooms: {coat: {preset: polarbear, skin: ball}}\nmaterials: {fur: {preset: foks}}\n")
+      expanded("grooms: {coat: {preset: polarbear, skin: ball}}\nmaterials: {fur: {preset: foxx}}\n")
           .problems,
-      (std::vector<std::string>{"s.yaml:3:26: there is no preset 'polarbear'; did you mean 'polar-bear'?",
-                                "s.yaml:4:26: there is no preset 'foks'; did you mean 'fox'?"}));
+      (std::vector<std::string>{"s.yaml:3:25: there is no preset 'polarbear'; did you mean 'polar-bear'?",
+                                "s.yaml:4:27: there is no preset 'foxx'; did you mean 'fox'?"}));
   EXPECT_EQ(expanded("grooms: {coat: {preset: [rat], skin: ball}}\n").problems,
             std::vector<std::string>{"s.yaml:3:25: expected the name of a preset, got a list of 1"});
   EXPECT_EQ(expanded("grooms: {coat: {preset: rat, preset_density: 2, skin: ball}}\n").problems.size(), 1u);
