@@ -153,7 +153,7 @@ constexpr AnimalCoat kAnimals[] = {
      .curl_mm = 0,
      .turns = 0,
      .points = 9,
-     .knots = "[[0, [0.3, 0.25, 0.22]], [0.35, [0.5, 0.27, 0.12]], [0.75, [0.68, 0.32, 0.1]], [1, [0.6, "
+     .knots = "[[0, [0.2, 0.16, 0.14]], [0.35, [0.36, 0.16, 0.06]], [0.75, [0.5, 0.19, 0.05]], [1, [0.6, "
               "0.24, 0.07]]]",
      .root = {0.32f, 0.22f, 0.16f},
      .optics = "model: yan-fast, kappa: 0.7"},
@@ -196,7 +196,7 @@ constexpr AnimalCoat kAnimals[] = {
      .points = 6,
      .knots = "[[0, [0.014, 0.012, 0.011]], [1, [0.011, 0.0095, 0.009]]]",
      .root = {0.02f, 0.017f, 0.015f},
-     .optics = "model: yan-fast, kappa: 0.5, beta_m: 7"},
+     .optics = "model: yan-fast, kappa: 0.5, beta_m: 10, beta_n: 15"},
     {.name = "polar-bear",
      .help = "polar bear: white, slightly yellow",
      .body_mm = 1260,
