@@ -155,6 +155,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
               : place());
     }
   }
+  if (impl->source.rest) stack.warn_of_missed(*impl->source.rest, impl->source.follicles(), context);
   const size_t bytes = impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
   impl->charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
   return std::shared_ptr<const Groom>(new Groom(std::move(impl)));

@@ -56,7 +56,7 @@ struct RampNode final : Field::Node {
 };
 
 struct NoiseNode final : Field::Node {
-  explicit NoiseNode(Noise n) : noise(n) {}
+  explicit NoiseNode(NoiseShape n) : noise(n) {}
   float value(const FieldPoint& p) const override {
     return noise.offset +
            noise.amplitude * perlin_noise(p.rest * noise.frequency, static_cast<uint32_t>(noise.seed));
@@ -74,7 +74,7 @@ struct NoiseNode final : Field::Node {
                        print_number(noise.offset), noise.seed);
   }
 
-  Noise noise;
+  NoiseShape noise;
 };
 
 struct AttributeNode final : Field::Node {
@@ -118,7 +118,7 @@ Rgb on_curve(std::span<const RampKnot> knots, float x) {
 }
 
 Field ramp_field(Ramp ramp) { return Field(std::make_shared<RampNode>(std::move(ramp))); }
-Field noise_field(Noise noise) { return Field(std::make_shared<NoiseNode>(noise)); }
+Field noise_field(NoiseShape noise) { return Field(std::make_shared<NoiseNode>(noise)); }
 Field attribute_field(std::string name, SourcePosition named_at) {
   return Field(std::make_shared<AttributeNode>(std::move(name), std::move(named_at)));
 }

@@ -38,16 +38,16 @@ struct Ramp {
 /// Returns the value of a curve through knots, linear between them and constant outside.
 Rgb on_curve(std::span<const RampKnot> knots, float x);
 
-struct Noise {
+struct NoiseShape {
   float frequency = 1;
   float amplitude = 1;
   float offset = 0;
   int seed = 0;
-  static const Schema<Noise>& schema();
+  static const Schema<NoiseShape>& schema();
 };
 
 Field ramp_field(Ramp ramp);
-Field noise_field(Noise noise);
+Field noise_field(NoiseShape noise);
 Field attribute_field(std::string name, SourcePosition named_at = {});
 
 /// Returns the number as a scene writes it.

@@ -17,7 +17,7 @@ struct RampForm {
   static const Schema<RampForm>& schema();
 };
 struct NoiseForm {
-  Noise noise;
+  NoiseShape noise;
   static const Schema<NoiseForm>& schema();
 };
 struct AttributeForm {
@@ -212,21 +212,21 @@ const Schema<Ramp>& Ramp::schema() {
   return table;
 }
 
-const Schema<Noise>& Noise::schema() {
-  static const Schema<Noise> table = [] {
-    Schema<Noise> s("noise of a field",
-                    "offset + amplitude * gradient noise in [-1, 1] at the rest position of the root.");
+const Schema<NoiseShape>& NoiseShape::schema() {
+  static const Schema<NoiseShape> table = [] {
+    Schema<NoiseShape> s("noise of a field",
+                         "offset + amplitude * gradient noise in [-1, 1] at the rest position of the root.");
     s.set_example(R"(grooms:
   coat:
     skin: patch
     strands: 20000
     operators:
       - length: {value: {noise: {frequency: 1, amplitude: 1.2, offset: 0.5, seed: 7}}})");
-    s.key("frequency", &Noise::frequency,
+    s.key("frequency", &NoiseShape::frequency,
           {.unit = "per scene unit", .help = "Noise cells per scene unit", .min = 0});
-    s.key("amplitude", &Noise::amplitude, {.help = "Maximum deviation from the offset"});
-    s.key("offset", &Noise::offset, {.help = "Mean value"});
-    s.key("seed", &Noise::seed, {.help = "Seed of the noise", .min = 0});
+    s.key("amplitude", &NoiseShape::amplitude, {.help = "Maximum deviation from the offset"});
+    s.key("offset", &NoiseShape::offset, {.help = "Mean value"});
+    s.key("seed", &NoiseShape::seed, {.help = "Seed of the noise", .min = 0});
     return s;
   }();
   return table;

@@ -69,6 +69,11 @@ PICTURES = {
                      "regions": "regions: {spots: {threshold: {noise: {frequency: 1.5}}, at: 0}}\n", **ABOVE},
     "operator mask": {"before": LENGTH + "\n- comb: {direction: [1, 0, 0], lift: 0.1}", "first": LENGTH},
     "comb": {"before": LENGTH, "first": LENGTH},
+    "part": {"before": LENGTH, "first": LENGTH, **ABOVE, "strands": 900},
+    "swirl": {"before": LENGTH, "first": LENGTH, **ABOVE, "strands": 900},
+    "wet": {"before": LENGTH, "first": LENGTH, "strands": 2500},
+    "braid": {"before": LENGTH, "first": LENGTH, "strands": 1500},
+    "avoid": {"before": LENGTH, "first": LENGTH, **ABOVE, "strands": 900},
     "bend": {"before": LENGTH, "first": LENGTH},
     "clump": {"before": LENGTH, "first": LENGTH, "strands": 2000},
     "curl": {"before": LENGTH, "first": LENGTH, "strands": 150},
@@ -173,6 +178,9 @@ def prepare(pelage, folder):
     (folder / "patch.obj").write_text((ROOT / "examples" / "patch.obj").read_text())
     subprocess.run(["oiiotool", "--pattern", "checker:width=64:height=64:color1=0.1,0.1,0.1:color2=1,1,1", "128x128",
                     "3", "-d", "uint8", "-o", folder / "length.png"], check=True)
+    corners = [f"v {x} {y} {z}" for x in (-1.2, 0.1) for y in (0.5, 1.6) for z in (-0.8, 0.8)]
+    faces = ["f 1 2 4 3", "f 5 7 8 6", "f 1 5 6 2", "f 3 4 8 7", "f 1 3 7 5", "f 2 6 8 4"]
+    (folder / "block.obj").write_text("\n".join(corners + faces) + "\n")
     guides = scene("- length: {value: 1.1}\n- bend: {direction: [1, 0.3, 0], angle: 120}\n- width: {root: 0.01}",
                    {"strands": 40})
     (folder / "scene.yaml").write_text(guides)

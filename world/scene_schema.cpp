@@ -81,7 +81,7 @@ const Schema<SkinParams>& SkinParams::schema() {
 
 const Schema<PartParams>& PartParams::schema() {
   static const Schema<PartParams> table = [] {
-    Schema<PartParams> s("part", "One skin of a character, its material and its grooms.");
+    Schema<PartParams> s("character part", "One skin of a character, its material and its grooms.");
     s.set_example(R"(characters:
   rat:
     parts:

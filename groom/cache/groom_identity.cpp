@@ -23,6 +23,16 @@ void describe(const T& value, const char* key, std::vector<ParameterText>& out) 
   detail::describe_value(value, key, out);
 }
 
+/// The parameters and the version of an operator, as inputs of a stage before it.
+void add_operator(const Operator& op, std::vector<ParameterText>& inputs) {
+  const std::string name(op.traits().name);
+  for (ParameterText& parameter : op.parameters()) {
+    parameter.key = name + "." + parameter.key;
+    inputs.push_back(std::move(parameter));
+  }
+  inputs.push_back({name + ".version", std::to_string(op.traits().version)});
+}
+
 }  // namespace
 
 GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
@@ -43,15 +53,15 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
   // `rest` is null for strands that follow no skin.
   describe(params.attach, "attach", strands);
   for (const auto& op : stack.operators()) {
-    if (!op->traits().restricts_coverage) continue;
-    for (ParameterText& parameter : op->parameters()) {
-      parameter.key = std::string(op->traits().name) + "." + parameter.key;
-      strands.push_back(std::move(parameter));
-    }
-    strands.push_back({std::string(op->traits().name) + ".version", std::to_string(op->traits().version)});
+    if (op->traits().restricts_coverage) add_operator(*op, strands);
   }
   add("strands", growth_version::kStrands, strands);
-  add("points", growth_version::kPoints, {{"points", std::to_string(params.points)}});
+  // An operator that parts hair also changes what the operators before it do.
+  std::vector<ParameterText> points{{"points", std::to_string(params.points)}};
+  for (const auto& op : stack.operators()) {
+    if (op->traits().parts_hair) add_operator(*op, points);
+  }
+  add("points", growth_version::kPoints, points);
   for (const auto& op : stack.operators()) {
     const OperatorTraits traits = op->traits();
     add(std::string(traits.name), traits.version, op->parameters());

@@ -29,7 +29,8 @@ const Schema<BendParams>& BendParams::schema() {
       - bend: {direction: [1, 0, 0], angle: 90})");
     s.set_picture("Left: straight strands. Right: bent to the right by 90 degrees at the tip.");
     s.key("direction", &BendParams::direction,
-          {.help = "Target direction in the rest space of the skin: a vector or a map of vectors"});
+          {.help = "Target direction in the rest space of the skin: a vector or a field of vectors, such "
+                   "as a ramp, whose knots are directions"});
     s.key("angle", &BendParams::angle,
           {.unit = "degrees", .help = "Rotation at the tip", .min = 0, .max = 180});
     s.key(
@@ -42,6 +43,7 @@ const Schema<BendParams>& BendParams::schema() {
            .max = 10});
     s.key("variation", &BendParams::variation,
           {.help = "Random reduction of the angle: 0.4 gives 60 to 100 % of it", .min = 0, .max = 1});
+    s.key("amount", &BendParams::amount, {.help = "Factor on the angle", .min = 0, .max = 1});
     return s;
   }();
   return table;
@@ -51,13 +53,15 @@ void Bend::prepare(const PrepareContext& context) {
   seed_ = context.seed;
   params_.direction = params_.direction.with_textures(context.textures);
   params_.angle = params_.angle.with_textures(context.textures);
+  params_.amount = params_.amount.with_textures(context.textures);
 }
 
 void Bend::apply(StrandBatch& batch) const {
   VectorRow direction;
-  StrandRow angle;
+  StrandRow angle, amount;
   evaluate_color(params_.direction, batch, 0, direction);
   evaluate(params_.angle, batch, 0, angle);
+  evaluate(params_.amount, batch, 0, amount);
   const TurnProfile profile{params_.start, 1, params_.profile};
   const int tip = batch.segment_count();
   for (size_t s = 0; s < batch.count; ++s) {
@@ -66,13 +70,15 @@ void Bend::apply(StrandBatch& batch) const {
     const V3f now = normalised_or(batch.offset(tip, s) - batch.offset(0, s), normal);
     Rotation rotation = rotation_between(now, target, any_perpendicular(now));
     const float less = params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("bend")));
-    rotation.angle = std::min(rotation.angle, std::clamp(angle[s], 0.0f, 180.0f) * kRadians * (1.0f - less));
+    rotation.angle = std::min(rotation.angle, std::clamp(angle[s], 0.0f, 180.0f) * kRadians * (1.0f - less)) *
+                     std::clamp(amount[s], 0.0f, 1.0f);
     turn_strand(batch, s, profile, rotation);
   }
 }
 
 float Bend::largest_angle() const {
-  return std::clamp(params_.angle.value_range().second, 0.0f, 180.0f) * kRadians;
+  return std::clamp(params_.angle.value_range().second, 0.0f, 180.0f) * kRadians *
+         std::clamp(params_.amount.value_range().second, 0.0f, 1.0f);
 }
 
 StrandReach Bend::reach_after(const StrandReach& before) const {

@@ -14,6 +14,7 @@ struct BendParams {
   float start = 0;
   float profile = 1;
   float variation = 0;
+  Field amount{1.0f};
   static const Schema<BendParams>& schema();
 };
 

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
 #include "base/value_readers.h"
 #include "groom/operators/clump_centres.h"
+#include "groom/strands/part_lines.h"
 #include "groom/strands/strand_batch.h"
 #include "groom/strands/strand_fields.h"
 
@@ -80,10 +83,15 @@ const Schema<ClumpParams>& ClumpParams::schema() {
   return table;
 }
 
-void Clump::prepare(const PrepareContext& context) {
+void Clump::prepare(const PrepareContext& context) { prepare_after(context, kName, {}); }
+
+void Clump::prepare_after(const PrepareContext& context, const char* name,
+                          const std::function<void(StrandBatch&)>& shape) {
   if (!context.rest)
-    throw Error(ErrorKind::kInput, context.position, "the operator clump needs strands that grow on a skin");
+    throw Error(ErrorKind::kInput, context.position,
+                fmt::format("the operator {} needs strands that grow on a skin", name));
   seed_ = context.seed;
+  parts_ = context.parts;
   levels_.clear();
   const auto add = [&](float spacing, const Field& amount) {
     const uint64_t level_seed = hash64(seed_, levels_.size());
@@ -91,6 +99,7 @@ void Clump::prepare(const PrepareContext& context) {
       for (const auto& op : context.preceding) {
         if (op->traits().reads_rest_only) op->apply(batch);
       }
+      if (shape) shape(batch);
       pull(batch, levels_.size());
     };
     auto centres = std::make_shared<const ClumpCentres>(context, spacing, level_seed, grow);
@@ -141,10 +150,11 @@ void Clump::pull_level(const Level& level, uint64_t level_seed, const std::vecto
   for (size_t s = 0; s < batch.count; ++s) {
     strength[s] = 0;
     if (unit_float(hash64(level_seed, batch.ids[s], random_use("stray"))) < params_.strays) continue;
-    if (!centres.roots().nearest(vector_at(batch.rest.position, s), vector_at(batch.rest.normal, s),
-                                 centre[s])) {
-      continue;
-    }
+    const V3f root = vector_at(batch.rest.position, s), normal = vector_at(batch.rest.normal, s);
+    const auto on_this_side = [&](uint32_t i) {
+      return !divides(parts_, root, normal, centres.roots().position(i));
+    };
+    if (!centres.roots().nearest_if(root, normal, centre[s], on_this_side)) continue;
     const uint64_t of_clump = hash64(level_seed, centre[s].index, random_use("clump"));
     strength[s] = 1.0f - params_.variation * unit_float(of_clump);
     batch.clump[s] = unit_float(mix64(of_clump));

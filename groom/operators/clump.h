@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct ClumpParams {
 /// noise on the rest skin; the operators before this one grow them. Each finer level has its own, denser set
 /// of centre strands. The coarser levels have already pulled these centre strands as well.
 ///
+/// A centre strand does not count on the other side of a line of the operator `part`. A strand that finds
+/// none on its side joins no clump.
+///
 /// Points of a strand and of its centre strand are matched by arc length, so that strands of unequal length
 /// lie together. A strand that pulling has made longer is scaled down about its root. It gets its previous
 /// length again if this length is at least 1.5 times the distance to its centre; otherwise, it stays somewhat
@@ -49,6 +53,10 @@ class Clump final : public OperatorOf<ClumpParams> {
 
   OperatorTraits traits() const override { return {.name = kName, .runs_preceding = true}; }
   void prepare(const PrepareContext& context) override;
+  /// The same as prepare() for a clump that is part of the operator `name`. `shape`: what this operator does
+  /// to strands before they are pulled together; may be empty.
+  void prepare_after(const PrepareContext& context, const char* name,
+                     const std::function<void(StrandBatch&)>& shape);
   void apply(StrandBatch& batch) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
@@ -76,6 +84,7 @@ class Clump final : public OperatorOf<ClumpParams> {
 
   uint64_t seed_ = 0;
   std::vector<Level> levels_;
+  std::vector<std::shared_ptr<const PartLines>> parts_;
 };
 
 }  // namespace pelage

@@ -25,12 +25,24 @@ class ClumpCentres {
   static constexpr float kReach = 1.25f;
 
   const RootGrid& roots() const { return roots_; }
+  int points() const { return points_; }  ///< of each centre strand
+  /// Returns point `p` of centre strand `i`.
+  V3f point(size_t i, int p) const {
+    const float* at = place(i, p);
+    return {at[0], at[1], at[2]};
+  }
+  /// Returns the arc length from the root of centre strand `i` to its point `p`.
+  float arc(size_t i, int p) const { return place(i, p)[3]; }
   /// Returns the point of centre strand `i` at arc length `arc` from its root. Beyond the tip, the strand is
   /// extended straight. `segment` is both input and output: the segment where the last call for this strand
   /// and centre ended, 0 for the first call. `arc` must not decrease between these calls.
   V3f at(size_t i, float arc, int& segment) const;
 
  private:
+  const float* place(size_t i, int p) const {
+    return &curves_[(i * static_cast<size_t>(points_) + static_cast<size_t>(p)) * 4];
+  }
+
   RootGrid roots_;
   int points_ = 0;
   MemoryCharge charge_;

@@ -26,9 +26,6 @@ class Comb final : public OperatorOf<CombParams> {
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   StrandReach reach_after(const StrandReach& before) const override;
-
- private:
-  float largest_turn(const StrandReach& before) const;
 };
 
 }  // namespace pelage

@@ -17,6 +17,11 @@
 namespace pelage {
 namespace {
 
+/// A guide that is nearer than this fraction of the distance between guides may be a copy.
+constexpr float kCopy = 1.0f / 16;
+/// A copy has its tip within this fraction of its length of the tip of the guide.
+constexpr float kSameShape = 0.25f;
+
 /// The strand as a polyline that is fine enough for measuring it.
 std::vector<V3f> trace(const Strands& strands, size_t strand) {
   constexpr int kSteps = 8;
@@ -51,7 +56,6 @@ std::vector<V3f> at_even_arcs(const std::vector<V3f>& line, int count) {
 /// none.
 float distance_to_next(const std::vector<V3f>& roots, const std::vector<V3f>& normals, size_t g, float min) {
   constexpr size_t kAround = 16;
-  constexpr float kCopy = 1.0f / 16;  // of the distance to the last of them
   std::array<float, kAround> nearest;
   size_t count = 0;
   for (size_t other = 0; other < roots.size(); ++other) {
@@ -63,7 +67,7 @@ float distance_to_next(const std::vector<V3f>& roots, const std::vector<V3f>& no
     nearest[at] = distance;
   }
   if (count == 0) return std::numeric_limits<float>::infinity();
-  const float copies = std::max(min, kCopy * nearest[count - 1]);
+  const float copies = std::max(min, kCopy * nearest[count - 1]);  // the distance to the last of them
   const auto next = std::upper_bound(nearest.begin(), nearest.begin() + count, copies);
   return next == nearest.begin() + count ? std::numeric_limits<float>::infinity() : *next;
 }
@@ -114,7 +118,8 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   std::error_code missing;
   const auto file_bytes = std::filesystem::file_size(source.file.path, missing);
   const MemoryCharge making =
-      reserve(job.ledger, MemoryTag::kGrooms, missing ? 0 : kOfFile * static_cast<int64_t>(file_bytes),
+      reserve(job.ledger, MemoryTag::kGrooms,
+              missing ? 0 : kOfFile * (source.mirror ? 2 : 1) * static_cast<int64_t>(file_bytes),
               "reading the guides of " + source.file.path.string() + " for " + context.owner);
   const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
   const size_t count = file.strands.strand_count();
@@ -124,10 +129,16 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   if (binding.empty())
     throw Error(ErrorKind::kInput, source.file.position,
                 "guides need a skin with at least one face that is not a hole");
-  for (size_t g = 0; g < count; ++g) {
-    if (g % 256 == 0) job.check_stop();
-    const std::vector<V3f> points = resample_strand(file.strands, g, points_);
-    const RootAddress root = binding.nearest(points[0] * source.scale + source.translate);
+  const V3f across = source.mirror ? source.mirror->normalized() : V3f(0);
+  for (size_t i = 0; i < (source.mirror ? 2 * count : count); ++i) {
+    if (i % 256 == 0) job.check_stop();
+    std::vector<V3f> points = resample_strand(file.strands, i % count, points_);
+    V3f start = points[0] * source.scale + source.translate;
+    if (i >= count) {
+      start -= across * (2 * across.dot(start));
+      for (V3f& point : points) point -= across * (2 * across.dot(point));
+    }
+    const RootAddress root = binding.nearest(start);
     roots_.push_back(context.rest->evaluate(root.face, root.u, root.v).position);
     normals_.push_back(context.rest->frame(root.face, root.u, root.v).normal);
     float length = 0;
@@ -142,8 +153,42 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
     longest_ = std::max(longest_, length);
   }
   constexpr float kSamePlace = 1e-4f;  // of the skin's size
-  spacing_ =
-      median_spacing(roots_, normals_, kSamePlace * context.rest->control_bounds().size().length(), job);
+  const float same_place = kSamePlace * context.rest->control_bounds().size().length();
+  spacing_ = median_spacing(roots_, normals_, same_place, job);
+  drop_twins(std::max(same_place, kCopy * spacing_));
+}
+
+void GuideSet::drop_twins(float apart) {
+  if (!(apart > 0)) return;
+  const RootGrid grid(roots_, normals_, apart);
+  const auto points = static_cast<size_t>(points_);
+  std::vector<bool> kept(roots_.size(), true);
+  size_t count = 0;
+  for (size_t g = 0; g < roots_.size(); ++g) {
+    const V3f tip = offset(g, points_ - 1);
+    grid.for_each_near(roots_[g], normals_[g], [&](uint32_t other, float) {
+      if (other < g && kept[other] && (tip - offset(other, points_ - 1)).length() <= kSameShape * lengths_[g])
+        kept[g] = false;
+    });
+    count += kept[g];
+  }
+  if (count == kept.size()) return;
+  size_t to = 0;
+  for (size_t g = 0; g < kept.size(); ++g) {
+    if (!kept[g]) continue;
+    roots_[to] = roots_[g];
+    normals_[to] = normals_[g];
+    leans_[to] = leans_[g];
+    lengths_[to] = lengths_[g];
+    std::copy_n(offsets_.begin() + static_cast<std::ptrdiff_t>(g * points), points,
+                offsets_.begin() + static_cast<std::ptrdiff_t>(to * points));
+    ++to;
+  }
+  roots_.resize(to);
+  normals_.resize(to);
+  leans_.resize(to);
+  lengths_.resize(to);
+  offsets_.resize(to * points);
 }
 
 size_t GuideSet::bytes() const {

@@ -21,10 +21,13 @@ struct GuideFile {
   std::optional<CurveBasis> basis;
   float scale = 1;
   V3f translate{0};
+  /// Normal of a plane through the origin; not 0. The mirror image of every guide is added.
+  std::optional<V3f> mirror = {};
 };
 
 /// Guide strands in rest space. They are bound to the rest skin and resampled to a common number of points.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// Of guides with nearly the same root and shape, only the first is kept. Immutable. Thread safety: const
+/// members may be called from any thread.
 class GuideSet {
  public:
   /// Reads the guides. Throws Error (kInput) when the file cannot be read or contains no usable strand, or
@@ -51,6 +54,9 @@ class GuideSet {
   size_t bytes() const;
 
  private:
+  /// Drops guides whose root is within `apart` of that of a similar guide before them.
+  void drop_twins(float apart);
+
   int points_ = 0;
   float longest_ = 0;
   float spacing_ = 0;

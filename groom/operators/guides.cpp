@@ -10,6 +10,7 @@
 #include "geom/limit_surface.h"
 #include "groom/operators/guide_set.h"
 #include "groom/strands/curve_basis_names.h"
+#include "groom/strands/part_lines.h"
 #include "groom/strands/rotation.h"
 #include "groom/strands/strand_fields.h"
 
@@ -55,9 +56,11 @@ float agreement(float cosine) {
 
 /// The guides near a position and their weights, which sum to 1; empty when no guide is near.
 Weights find_weights(const RootGrid& grid, const GuideSet& guides, const V3f& position, const V3f& normal,
-                     int neighbours) {
+                     int neighbours, std::span<const std::shared_ptr<const PartLines>> parts) {
   Weights w;
-  const int found = grid.nearest(position, normal, neighbours + 1, w.guide.data());
+  const int found = grid.nearest_if(position, normal, neighbours + 1, w.guide.data(), [&](uint32_t i) {
+    return !divides(parts, position, normal, grid.position(i));
+  });
   w.count = std::min(found, neighbours);
   const float radius = found > neighbours ? w.guide[static_cast<size_t>(neighbours)].distance : grid.radius();
   const auto count = static_cast<size_t>(w.count);
@@ -104,18 +107,26 @@ const Schema<GuidesParams>& GuidesParams::schema() {
     s.key("translate", &GuidesParams::translate,
           {.unit = "scene units", .help = "Offset of the file's positions, added after `scale`"});
     s.key(
+        "mirror", &GuidesParams::mirror,
+        {.help =
+             "Normal of a plane through the origin of the rest space, such as [1, 0, 0]: the guides also act "
+             "as their mirror images on the other side, so that one side needs no guides of its own",
+         .default_text = "guides act where they are"});
+    s.key(
         "neighbours", &GuidesParams::neighbours,
         {.help = "Number of guides that shape a strand. Of these, guides that lean more than 60 degrees away "
                  "from the nearest one do not count, so that guides combed apart part the hair; up to 40 "
-                 "degrees, they count fully",
+                 "degrees, they count fully. Copies of guides do not count",
          .min = 1,
          .max = kMaxNeighbours});
-    s.key("radius", &GuidesParams::radius,
-          {.unit = "scene units",
-           .help = "Maximum distance from a guide to a strand that it shapes",
-           .min = 0,
-           .above_min = true,
-           .default_text = "4 times the median distance between guides, copies aside"});
+    s.key(
+        "radius", &GuidesParams::radius,
+        {.unit = "scene units",
+         .help = "Maximum distance from a guide to a strand that it shapes. Guides where the skin faces more "
+                 "than 60 degrees away, as on the other side of an ear, do not act",
+         .min = 0,
+         .above_min = true,
+         .default_text = "4 times the median distance between guides, copies aside"});
     s.key(
         "growth_radius", &GuidesParams::spread,
         {.unit = "scene units",
@@ -136,9 +147,12 @@ const Schema<GuidesParams>& GuidesParams::schema() {
 void Guides::prepare(const PrepareContext& context) {
   if (!context.rest)
     throw Error(ErrorKind::kInput, context.position, "the operator guides needs strands that grow on a skin");
+  if (params_.mirror && params_.mirror->length() == 0)
+    throw Error(ErrorKind::kInput, context.position, "the key `mirror` of the operator guides must not be 0");
   params_.amount = params_.amount.with_textures(context.textures);
+  parts_ = context.parts;
   guides_ = std::make_shared<const GuideSet>(
-      GuideFile{params_.file, params_.basis, params_.scale, params_.translate}, context);
+      GuideFile{params_.file, params_.basis, params_.scale, params_.translate, params_.mirror}, context);
   const float automatic =
       guides_->spacing() > 0 ? 4.0f * guides_->spacing() : context.rest->control_bounds().size().length();
   near_ = RootGrid(guides_->roots(), guides_->normals(), params_.radius.value_or(automatic));
@@ -158,6 +172,13 @@ float Guides::coverage(const FieldPoint& root) const {
   return total;
 }
 
+bool Guides::misses(const FieldPoint& root) const {
+  RootGrid::Neighbour guide;
+  return !near_.nearest_if(root.rest, root.normal, guide, [&](uint32_t i) {
+    return !divides(parts_, root.rest, root.normal, near_.position(i));
+  });
+}
+
 void Guides::apply(StrandBatch& batch) const {
   const int points = batch.point_count();
   PELAGE_CHECK(points == guides_->points());
@@ -167,7 +188,7 @@ void Guides::apply(StrandBatch& batch) const {
   for (size_t s = 0; s < batch.count; ++s) {
     const V3f normal = vector_at(batch.rest.normal, s);
     const Weights weights =
-        find_weights(near_, *guides_, vector_at(batch.rest.position, s), normal, params_.neighbours);
+        find_weights(near_, *guides_, vector_at(batch.rest.position, s), normal, params_.neighbours, parts_);
     if (weights.count == 0) continue;
     std::fill(shape.begin(), shape.end(), V3f(0));
     float length = 0;

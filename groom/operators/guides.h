@@ -22,6 +22,7 @@ struct GuidesParams {
   std::optional<CurveBasis> basis;
   float scale = 1;
   V3f translate{0};
+  std::optional<V3f> mirror;
   int neighbours = 4;
   std::optional<float> radius;
   std::optional<float> spread;
@@ -40,17 +41,19 @@ struct GuidesParams {
 ///
 /// The mean of guides that lean apart would stand upright between them. Therefore a guide counts only as far
 /// as it leans like the nearest guide: fully up to 40 degrees, not at all from 60 degrees. So the coat is
-/// continuous where nearby guides lean within 40 degrees of each other, and parts where they lean apart.
+/// continuous where nearby guides lean within 40 degrees of each other, and parts where they lean apart. A
+/// guide does not count on the other side of a line of the operator `part`.
 class Guides final : public OperatorOf<GuidesParams> {
  public:
   static constexpr const char* kName = "guides";
   using OperatorOf::OperatorOf;
 
   OperatorTraits traits() const override {
-    return {.name = kName, .version = 2, .restricts_coverage = params_.spread.has_value()};
+    return {.name = kName, .version = 2, .restricts_coverage = params_.spread.has_value(), .may_miss = true};
   }
   void prepare(const PrepareContext& context) override;
   float coverage(const FieldPoint& root) const override;
+  bool misses(const FieldPoint& root) const override;
   void apply(StrandBatch& batch) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
@@ -58,6 +61,7 @@ class Guides final : public OperatorOf<GuidesParams> {
   bool all_strands_have_guides() const;
 
   std::shared_ptr<const GuideSet> guides_;
+  std::vector<std::shared_ptr<const PartLines>> parts_;
   RootGrid near_;     // finds the guides that shape a strand
   RootGrid covered_;  // finds whether a guide is near enough for a strand to grow (`spread`)
   std::shared_ptr<const MemoryCharge> charge_;  // memory of guides_, near_ and covered_

@@ -26,6 +26,9 @@ const Schema<LengthParams>& LengthParams::schema() {
            .min = 0,
            .default_text = "the current length (1 before any operator)"});
     s.key("scale", &LengthParams::scale, {.help = "Factor on the length", .min = 0});
+    s.key("add", &LengthParams::add,
+          {.unit = "scene units",
+           .help = "Added to the length after `scale`; negative values shorten, down to nothing"});
     s.key("variation", &LengthParams::variation,
           {.help = "Random shortening: 0.4 gives 60 to 100 % of the length", .min = 0, .max = 1});
     return s;
@@ -37,6 +40,7 @@ void Length::prepare(const PrepareContext& context) {
   seed_ = context.seed;
   if (params_.value) params_.value = params_.value->with_textures(context.textures);
   params_.scale = params_.scale.with_textures(context.textures);
+  params_.add = params_.add.with_textures(context.textures);
 }
 
 void Length::apply(StrandBatch& batch) const {
@@ -51,9 +55,17 @@ void Length::apply(StrandBatch& batch) const {
   } else {
     factor.fill(1.0f);
   }
+  const bool adds = !params_.add.is_constant() || params_.add.value({}) != 0;
+  StrandRow added;
+  if (adds) evaluate(params_.add, batch, 0, added);
   for (size_t s = 0; s < batch.count; ++s) {
     const float shorter = params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("length")));
-    factor[s] *= std::max(scale[s], 0.0f) * (1.0f - shorter);
+    float scaled = std::max(scale[s], 0.0f);
+    if (adds) {
+      const float now = length[s] * factor[s];
+      scaled = now > 0 ? std::max(scaled + added[s] * batch.scale / now, 0.0f) : 0.0f;
+    }
+    factor[s] *= scaled * (1.0f - shorter);
   }
   const VectorRow base = batch.points.front().offset;
   for (size_t p = 1; p < batch.points.size(); ++p) {
@@ -75,6 +87,9 @@ StrandReach Length::reach_after(const StrandReach& before) const {
     after.length *= scale;
     after.distance *= scale;
   }
+  const float added = std::max(params_.add.value_range().second, 0.0f);
+  after.length += added;
+  after.distance += added;
   return after;
 }
 

@@ -13,6 +13,7 @@ namespace pelage {
 struct LengthParams {
   std::optional<Field> value;
   Field scale{1.0f};
+  Field add{0.0f};
   float variation = 0;
   static const Schema<LengthParams>& schema();
 };

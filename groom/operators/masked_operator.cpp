@@ -32,12 +32,14 @@ bool is_zero(const std::vector<StrandRow>& rows, size_t count) {
 
 }  // namespace
 
-const Schema<MaskParams>& MaskParams::schema() {
+const Schema<MaskParams>& MaskParams::mask_only() {
   static const Schema<MaskParams> table = [] {
     Schema<MaskParams> s(
         "operator mask",
-        "Every operator of a groom also has the key `mask`, which limits it to a part of the "
-        "skin or of the strand.");
+        "Every operator of a groom also has the key `mask`, which limits it to a part of the skin or of the "
+        "strand, and the key `amount`, which weakens it. Operators that have an `amount` among their own "
+        "keys "
+        "use it as described there.");
     s.set_example(R"(grooms:
   coat:
     skin: patch
@@ -58,17 +60,30 @@ const Schema<MaskParams>& MaskParams::schema() {
   return table;
 }
 
+const Schema<MaskParams>& MaskParams::schema() {
+  static const Schema<MaskParams> table = [] {
+    Schema<MaskParams> s = mask_only();
+    s.key(
+        "amount", &MaskParams::amount,
+        {.help = "Factor on `mask`: 0 switches the operator off. It may vary over the skin and along strands",
+         .min = 0,
+         .max = 1});
+    return s;
+  }();
+  return table;
+}
+
 MaskedOperator::MaskedOperator(std::shared_ptr<const Operator> inner, Clone clone, Field mask)
-    : inner_(clone(*inner)), clone_(clone), params_{std::move(mask)} {}
+    : inner_(clone(*inner)), clone_(clone), mask_(std::move(mask)) {}
 
 MaskedOperator::MaskedOperator(const MaskedOperator& other)
-    : inner_(other.clone_(*other.inner_)), clone_(other.clone_), params_(other.params_) {}
+    : inner_(other.clone_(*other.inner_)), clone_(other.clone_), mask_(other.mask_) {}
 
 OperatorTraits MaskedOperator::traits() const {
   OperatorTraits traits = inner_->traits();
-  const FieldDependence needs = params_.mask.dependence();
+  const FieldDependence needs = mask_.dependence();
   if (traits.colors) {
-    const AttributeClass own = changes_along(params_.mask)         ? AttributeClass::kPerPoint
+    const AttributeClass own = changes_along(mask_)                ? AttributeClass::kPerPoint
                                : needs.surface || needs.attributes ? AttributeClass::kPerStrand
                                                                    : AttributeClass::kConstant;
     traits.colors = std::max(*traits.colors, own);
@@ -82,25 +97,30 @@ OperatorTraits MaskedOperator::traits() const {
 
 std::vector<ParameterText> MaskedOperator::parameters() const {
   std::vector<ParameterText> all = inner_->parameters();
-  for (ParameterText& parameter : MaskParams::schema().describe(params_)) all.push_back(std::move(parameter));
+  for (ParameterText& parameter : MaskParams::mask_only().describe({mask_, {}}))
+    all.push_back(std::move(parameter));
   return all;
 }
 
 void MaskedOperator::prepare(const PrepareContext& context) {
-  params_.mask = params_.mask.with_textures(context.textures);
+  mask_ = mask_.with_textures(context.textures);
   inner_->prepare(context);
 }
 
 float MaskedOperator::coverage(const FieldPoint& root) const {
-  const float full = inner_->coverage(root), mask = params_.mask.value(root);
+  const float full = inner_->coverage(root), mask = mask_.value(root);
   return 1 + (full - 1) * mask;
+}
+
+bool MaskedOperator::misses(const FieldPoint& root) const {
+  return mask_.value(root) > 0 && inner_->misses(root);
 }
 
 void MaskedOperator::apply(StrandBatch& batch) const {
   // All rows of the mask are evaluated first, because the operator may change what the mask reads.
-  const bool along = changes_along(params_.mask);
+  const bool along = changes_along(mask_);
   std::vector<StrandRow> rows(along ? batch.points.size() : 1);
-  FieldRows<StrandRow> values(params_.mask, batch);
+  FieldRows<StrandRow> values(mask_, batch);
   for (size_t p = 0; p < rows.size(); ++p)
     rows[p] = values.at(batch.along(static_cast<int>(p)), static_cast<int>(p));
   if (is_zero(rows, batch.count)) return;
@@ -129,7 +149,7 @@ StrandReach MaskedOperator::reach_after(const StrandReach& before) const {
   StrandReach after = inner_->reach_after(before);
   after.length = std::max(before.length, after.length);
   const float farthest = std::max(before.distance, after.distance);
-  if (changes_along(params_.mask)) {
+  if (changes_along(mask_)) {
     after.length += (before.distance + after.distance) * static_cast<float>(after.segments);
     after.lean = std::numbers::pi_v<float>;
   }

@@ -9,10 +9,13 @@
 
 namespace pelage {
 
-/// The key `mask`, which every operator has beside its own keys.
+/// The keys `mask` and `amount`, which every operator has beside its own keys.
 struct MaskParams {
   Field mask{1.0f};
+  Field amount{1.0f};
   static const Schema<MaskParams>& schema();
+  /// Without `amount`: for operators with an `amount` of their own.
+  static const Schema<MaskParams>& mask_only();
 };
 
 /// Another operator whose effect is blended in by a mask: points, radii and colours are interpolated linearly
@@ -32,13 +35,15 @@ class MaskedOperator final : public Operator {
   /// Interpolates between 1 and the coverage of the masked operator. Attributes of strands count as 0,
   /// because strands have none before they grow.
   float coverage(const FieldPoint& root) const override;
+  std::shared_ptr<const PartLines> part() const override { return inner_->part(); }
+  bool misses(const FieldPoint& root) const override;
   void apply(StrandBatch& batch) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
   std::unique_ptr<Operator> inner_;
   Clone clone_;
-  MaskParams params_;
+  Field mask_;
 };
 
 }  // namespace pelage

@@ -22,6 +22,7 @@ namespace pelage {
 
 class LimitSurface;
 class Operator;
+class PartLines;
 struct Job;
 struct StrandBatch;
 
@@ -82,6 +83,10 @@ struct OperatorTraits {
   bool runs_preceding = false;
   /// Whether coverage() differs from 1 anywhere.
   bool restricts_coverage = false;
+  /// Whether part() returns a line after prepare().
+  bool parts_hair = false;
+  /// Whether misses() may be true.
+  bool may_miss = false;
 };
 
 /// Inputs of prepare(), which runs before strands are grown. Rest state only.
@@ -95,6 +100,8 @@ struct PrepareContext {
   int points = 8;                ///< number of points of a strand that is not imported
   SourcePosition position = {};  ///< position of the operator in the scene file, for error messages
   std::string owner = {};        ///< owner of the operator, for messages: "groom 'coat'"
+  /// The lines of all operators of the groom that part hair, before and after this one.
+  std::vector<std::shared_ptr<const PartLines>> parts = {};
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
@@ -122,6 +129,10 @@ class Operator {
   virtual void prepare(const PrepareContext&) {}
   /// Returns the factor on the density of the groom at a point of the rest skin. `root` has no attributes.
   virtual float coverage(const FieldPoint& /*root*/) const { return 1; }
+  /// Returns lines across which no operator of the groom mixes strands; null if there are none.
+  virtual std::shared_ptr<const PartLines> part() const { return nullptr; }
+  /// Returns whether the operator finds nothing that could shape a strand at this root of the rest skin.
+  virtual bool misses(const FieldPoint& /*root*/) const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
   /// Returns the bounds of strands after apply(). `before`: their bounds before it. The max distance is at
   /// most 1.5 times the distance of the point that is actually the farthest.

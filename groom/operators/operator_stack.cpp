@@ -6,7 +6,10 @@
 #include <map>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
+#include "base/job.h"
 #include "base/nearest_name.h"
 
 namespace pelage {
@@ -50,6 +53,19 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
                   "`clump` have limits; put it into the field `clamp`");
 }
 
+/// A root as fields see it.
+FieldPoint field_point(const LimitSurface& rest, const RootAddress& root) {
+  const V2f uv = rest.topology().texture_coordinates(root.face, root.u, root.v);
+  FieldPoint point;
+  point.rest = rest.evaluate(root.face, root.u, root.v).position;
+  point.u = uv.x;
+  point.v = uv.y;
+  point.normal = rest.frame(root.face, root.u, root.v).normal;
+  point.face = root.face;
+  point.face_uv = {root.u, root.v};
+  return point;
+}
+
 /// The frame at a point that is already evaluated; evaluates the surface again only where it is ill-defined.
 Frame frame_at(const LimitSurface& surface, const RootAddress& root, const SurfacePoint& point) {
   const V3f cross = point.du.cross(point.dv);
@@ -73,17 +89,49 @@ OperatorStack::OperatorStack(const OperatorList& list) {
 }
 
 void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& context) {
+  PrepareContext own = context;
+  own.parts.clear();
+  for (size_t i = 0; i < size(); ++i) {
+    if (!traits_[i].parts_hair) continue;
+    prepare_one(i, context);
+    own.parts.push_back(operators_[i]->part());
+  }
   for (size_t i = begin; i < end; ++i) {
-    Place& place = places_[i];
-    if (place.prepared) continue;
+    if (places_[i].prepared) continue;
     if (traits_[i].runs_preceding) prepare(0, i, context);
-    PrepareContext own = context;
-    own.preceding = std::span(operators_).first(i);
-    own.seed = seed_of(context.seed, i);
-    own.position = place.position;
-    operators_[i]->prepare(own);
-    check_bounded(*operators_[i], place.position);
-    place.prepared = true;
+    prepare_one(i, own);
+  }
+}
+
+void OperatorStack::prepare_one(size_t i, const PrepareContext& context) {
+  Place& place = places_[i];
+  if (place.prepared) return;
+  PrepareContext own = context;
+  own.preceding = std::span(operators_).first(i);
+  own.seed = seed_of(context.seed, i);
+  own.position = place.position;
+  operators_[i]->prepare(own);
+  check_bounded(*operators_[i], place.position);
+  place.prepared = true;
+}
+
+void OperatorStack::warn_of_missed(const LimitSurface& rest, const FollicleTree& follicles,
+                                   const PrepareContext& context) const {
+  constexpr size_t kSample = 20000;
+  const size_t strands = follicles.size(), step = std::max<size_t>(1, strands / kSample);
+  for (size_t i = 0; i < size(); ++i) {
+    if (!traits_[i].may_miss || !places_[i].prepared) continue;
+    size_t missed = 0, seen = 0;
+    for (size_t f = 0; f < strands; f += step, ++seen) {
+      if (seen % 256 == 0) context.job.check_stop();
+      if (operators_[i]->misses(field_point(rest, follicles.root(f)))) ++missed;
+    }
+    if (missed == 0) continue;
+    const size_t count = step == 1 ? missed : missed * strands / seen;
+    context.job.progress.warn(fmt::format(
+        "{}: {}{} of {} strands of {} have no guide within `radius` and keep "
+        "their shape",
+        to_string(places_[i].position), step == 1 ? "" : "about ", count, strands, context.owner));
   }
 }
 
@@ -114,6 +162,8 @@ OperatorTraits OperatorStack::traits(size_t begin, size_t end) const {
     all.attributes_only &= own.attributes_only;
     all.rest_use = std::max(all.rest_use, own.rest_use);
     all.restricts_coverage |= own.restricts_coverage;
+    all.parts_hair |= own.parts_hair;
+    all.may_miss |= own.may_miss;
   }
   return all;
 }

@@ -23,10 +23,15 @@ class OperatorStack {
   explicit OperatorStack(const OperatorList& list);
 
   /// Prepares each operator of [begin, end) that is not prepared yet. If preparing an operator runs the
-  /// operators before it, prepares these first. Each operator receives a copy of `context` with its own
-  /// `preceding`, `seed` and `position`. `context.seed` is the seed of the groom.
+  /// operators before it, prepares these first. Prepares all operators that part hair before any other.
+  /// Each operator receives a copy of `context` with its own `preceding`, `seed` and `position`, and with the
+  /// `parts` of the groom. `context.seed` is the seed of the groom.
   void prepare(size_t begin, size_t end, const PrepareContext& context);
   void prepare_all(const PrepareContext& context) { prepare(0, size(), context); }
+  /// Warns once for each prepared operator that misses strands, with the number of these strands. If there
+  /// are very many strands, estimates the number from a sample.
+  void warn_of_missed(const LimitSurface& rest, const FollicleTree& follicles,
+                      const PrepareContext& context) const;
   /// Prepares the operators that coverage() calls.
   void prepare_coverage(const PrepareContext& context);
 
@@ -60,6 +65,7 @@ class OperatorStack {
     bool prepared = false;
   };
   uint64_t seed_of(uint64_t groom, size_t i) const;
+  void prepare_one(size_t i, const PrepareContext& context);
 
   std::vector<std::unique_ptr<Operator>> operators_;
   std::vector<OperatorTraits> traits_;  // of each operator

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "groom/operators/operator.h"
 #include "groom/strands/rotation.h"
 #include "groom/strands/strand_batch.h"
@@ -9,6 +11,12 @@ namespace pelage {
 
 // Rotation of the segments of a strand by angles that increase along the strand. It preserves the length of
 // every segment.
+
+/// Returns 0 up to x = 0 and 1 from x = 1 on, with a smooth transition.
+inline float smooth_step(float x) {
+  x = std::clamp(x, 0.0f, 1.0f);
+  return x * x * (3 - 2 * x);
+}
 
 /// Fraction of the full angle by which a segment is rotated, as a function of its position along the arc (0
 /// root, 1 tip). It is 0 up to `start` and 1 from `end` on. In between, it rises as a power function with the

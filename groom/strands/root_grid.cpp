@@ -38,32 +38,11 @@ size_t RootGrid::bucket(int64_t x, int64_t y, int64_t z) const {
 }
 
 bool RootGrid::nearest(const V3f& position, const V3f& normal, Neighbour& result) const {
-  float best = 0;
-  bool found = false;
-  for_each_near(position, normal, [&](uint32_t i, float distance2) {
-    if (found && (distance2 > best || (distance2 == best && i > result.index))) return;
-    found = true;
-    best = distance2;
-    result.index = i;
-  });
-  result.distance = std::sqrt(best);
-  return found;
+  return nearest_if(position, normal, result, [](uint32_t) { return true; });
 }
 
 int RootGrid::nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const {
-  int count = 0;
-  const auto before = [](const Neighbour& a, const Neighbour& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
-  };
-  for_each_near(position, normal, [&](uint32_t i, float distance2) {
-    Neighbour candidate{i, std::sqrt(distance2)};
-    if (count == wanted && !before(candidate, result[count - 1])) return;
-    if (count < wanted) ++count;
-    int at = count - 1;
-    for (; at > 0 && before(candidate, result[at - 1]); --at) result[at] = result[at - 1];
-    result[at] = candidate;
-  });
-  return count;
+  return nearest_if(position, normal, wanted, result, [](uint32_t) { return true; });
 }
 
 size_t RootGrid::bytes() const {

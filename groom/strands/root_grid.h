@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,12 @@ class RootGrid {
   /// Writes the nearest points within the radius to `result`, at most `wanted`, nearest first. Returns their
   /// count.
   int nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const;
+  /// The same among the points for which accept(index) returns true.
+  template <class Accept>
+  bool nearest_if(const V3f& position, const V3f& normal, Neighbour& result, const Accept& accept) const;
+  template <class Accept>
+  int nearest_if(const V3f& position, const V3f& normal, int wanted, Neighbour* result,
+                 const Accept& accept) const;
   size_t bytes() const;
   /// Upper bound of bytes() divided by the number of points.
   static constexpr size_t kMaxBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
@@ -79,6 +86,41 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
       }
     }
   }
+}
+
+template <class Accept>
+bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& result,
+                          const Accept& accept) const {
+  float best = 0;
+  bool found = false;
+  for_each_near(position, normal, [&](uint32_t i, float distance2) {
+    if (found && (distance2 > best || (distance2 == best && i > result.index))) return;
+    if (!accept(i)) return;
+    found = true;
+    best = distance2;
+    result.index = i;
+  });
+  result.distance = std::sqrt(best);
+  return found;
+}
+
+template <class Accept>
+int RootGrid::nearest_if(const V3f& position, const V3f& normal, int wanted, Neighbour* result,
+                         const Accept& accept) const {
+  int count = 0;
+  const auto before = [](const Neighbour& a, const Neighbour& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+  };
+  for_each_near(position, normal, [&](uint32_t i, float distance2) {
+    Neighbour candidate{i, std::sqrt(distance2)};
+    if (count == wanted && !before(candidate, result[count - 1])) return;
+    if (!accept(i)) return;
+    if (count < wanted) ++count;
+    int at = count - 1;
+    for (; at > 0 && before(candidate, result[at - 1]); --at) result[at] = result[at - 1];
+    result[at] = candidate;
+  });
+  return count;
 }
 
 }  // namespace pelage

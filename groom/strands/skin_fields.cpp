@@ -10,7 +10,7 @@
 #include "base/memory_budget.h"
 #include "geom/cage_values.h"
 #include "geom/closest_point.h"
-#include "geom/io/obj_file.h"
+#include "groom/strands/named_mesh.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -216,20 +216,7 @@ std::shared_ptr<const SkinValues> SkinFields::distance_to_boundary(const Field& 
 }
 
 std::shared_ptr<const SkinValues> SkinFields::distance_to_mesh(const AssetPath& file) const {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file.path, ignored))
-    throw Error(ErrorKind::kInput, file.position, "no such file " + file.path.string());
-  const ControlMesh mesh = read_obj(file.path, job_);
-  SkinMesh triangles;
-  for (const V3f& position : mesh.positions) add_vertex(position, triangles);
-  size_t first = 0;
-  for (const uint32_t size : mesh.face_sizes) {
-    const uint32_t* face = &mesh.face_vertices[first];
-    for (uint32_t i = 2; i < size; ++i)
-      triangles.triangles.insert(triangles.triangles.end(), {face[0], face[i - 1], face[i]});
-    first += size;
-  }
-  return std::make_shared<const TriangleDistance>(std::move(triangles), bounds(), job_);
+  return std::make_shared<const TriangleDistance>(read_named_mesh(file, job_), bounds(), job_);
 }
 
 }  // namespace pelage

@@ -86,6 +86,10 @@ struct StrandBatch {
   V3f from_rest(size_t strand, const V3f& direction) const {
     return posed ? current.frame(strand).to_world(rest.frame(strand).to_local(direction)) : direction;
   }
+  /// Transforms an offset from the batch's space to rest space: the inverse of from_rest() and of the scale.
+  V3f to_rest(size_t strand, const V3f& offset) const {
+    return posed ? rest.frame(strand).to_world(current.frame(strand).to_local(offset)) * (1 / scale) : offset;
+  }
 };
 
 /// Makes straight strands of unit length and zero width along the root normals of `batch.rest`. Copies the

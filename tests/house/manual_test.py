@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MANUAL = ROOT / "docs" / "MANUAL.md"
-OPERATORS = ("length", "comb", "bend", "clump", "curl", "frizz", "noise", "guides", "push_out", "width", "color",
+OPERATORS = ("length", "comb", "part", "swirl", "bend", "clump", "wet", "braid", "avoid", "curl", "frizz", "noise", "guides", "push_out", "width", "color",
              "operator mask")
 FIELDS = tuple(f"{kind} field" for kind in (
     "map", "ramp", "noise", "attribute", "product", "add", "min", "sphere", "region"))

@@ -30,6 +30,7 @@ std::pair<std::string, std::string> two_values(const KeyInfo& key, const std::st
   const std::string& type = key.type;
   if (type.find("file") != std::string::npos) return {file, other_file};
   if (type == "true or false") return {"true", "false"};
+  if (type.find("list of 3 numbers") != std::string::npos) return {"[[1, 2, 3]]", "[[1, 2, 3.5]]"};
   if (type.find("list") != std::string::npos)
     return {"[{spacing: 0.1, amount: 0.5}]", "[{spacing: 0.1, amount: 0.25}]"};
   if (type.find("3 numbers") != std::string::npos) return {"[1, 2, 3]", "[1, 2, 3.5]"};
@@ -53,7 +54,7 @@ TEST_F(GroomIdentityTest, EveryParameterOfEveryOperatorCounts) {
         std::string keys = key.name + ": " + value;
         for (const KeyInfo& required : schema->keys())
           if (required.options.required && required.name != key.name)
-            keys += ", " + required.name + ": " + file;
+            keys += ", " + required.name + ": " + two_values(required, file, other).first;
         const bool mask = schema->name() == "operator mask";
         return "- " + (mask ? "length" : schema->name()) + ": {" + keys + "}\n";
       };

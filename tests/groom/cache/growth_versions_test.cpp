@@ -203,10 +203,20 @@ TEST_F(GrowthVersions, StrandsAndPoints) {
 TEST_F(GrowthVersions, Operators) {
   const auto guides = folder_.path() / "guides.hair";
   write_guides(guides, *rest_, 2);
+  const auto obstacle = folder_.path() / "obstacle.obj";
+  std::ofstream(obstacle)
+      << "v 0 2 0\nv -1 1.1 -1\nv 1 1.1 -1\nv 0 1.1 1\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n";
   // Each with most of its keys, on strands that already differ from each other.
   const std::vector<std::pair<std::string, std::string>> all{
       {"length", "{value: {ramp: {along: y, knots: [[-1, 0.2], [1, 0.5]]}}, scale: 1.1, variation: 0.3}"},
       {"comb", "{direction: [0, -1, 0.3], lift: 0.3, amount: 0.8, curve: 0.5}"},
+      {"part",
+       "{points: [[0, 0.3, -1], [0.1, 0.3, 0], [0, 0.3, 1]], width: 0.6, lift: 0.1, amount: 0.9, curve: "
+       "0.4}"},
+      {"wet", "{spacing: 0.3, gather: 0.8, profile: 1.2, weight: 50, flatten: 0.4, amount: 0.9}"},
+      {"braid", "{style: twist, spacing: 0.3, radius: 0.03, pitch: 0.2, thickness: 0.5, amount: 0.9}"},
+      {"avoid", "{mesh: " + obstacle.string() + ", offset: 0.02, iterations: 3}"},
+      {"swirl", "{center: [0, 1, 0], radius: 0.9, angle: 60, lift: 0.2, amount: 0.9, curve: 0.3}"},
       {"bend", "{direction: [1, 0, 0], angle: 70, start: 0.2, profile: 1.5, variation: 0.4}"},
       {"clump",
        "{spacing: 0.3, amount: 0.6, root: 0.1, profile: 1.3, variation: 0.3, strays: 0.1, levels: [{spacing: "

@@ -22,6 +22,9 @@ TEST_F(BendTest, Bounds) {
   check_bounds(prepared<Bend>(params(90, 0.5f, 1)), {1.5f, 1.5f, 0, 0.4f, 7});
   check_bounds(prepared<Bend>(params(90, 0, 3)), {1.5f, 1.5f, 0});
   check_bounds(prepared<Bend>(params(60, 0, 0.5f)), {1.5f, 1.5f, 0});
+  BendParams half = params(90, 0, 1);
+  half.amount = Field(0.5f);
+  check_bounds(prepared<Bend>(half), {1.5f, 1.5f, 0, 0.4f, 7});
 }
 
 TEST_F(BendTest, BendsTowardsTheDirectionButNotBeyond) {
@@ -39,6 +42,17 @@ TEST_F(BendTest, BendsTowardsTheDirectionButNotBeyond) {
     const float turned = std::min(before, std::numbers::pi_v<float> / 3) * 13 / 14;
     EXPECT_NEAR(after, before - turned, 2e-3f);
   }
+}
+
+TEST_F(BendTest, AmountScalesTheAngleAndKeepsLengths) {
+  BendParams half = params(90, 0, 1);
+  half.amount = Field(0.5f);
+  auto a = straight(), b = straight();
+  prepared<Bend>(half).apply(*a);
+  for (size_t s = 0; s < a->count; ++s) EXPECT_NEAR(length_of(*a, s), 1, 1e-5f);
+  half.amount = Field(0.0f);
+  prepared<Bend>(half).apply(*b);
+  for (size_t s = 0; s < b->count; ++s) EXPECT_EQ(b->offset(7, s), straight()->offset(7, s));
 }
 
 }  // namespace

@@ -3,16 +3,15 @@
 
 #include <filesystem>
 
-#include "base/temporary_folder.h"
 #include "geom/curve.h"
 #include "geom/io/strand_file.h"
 #include "groom/operators/guide_set.h"
-#include "tests/groom/operator_harness.h"
+#include "tests/groom/cached_coats.h"
 
 namespace pelage {
 namespace {
 
-class GuidesTest : public OperatorTest {
+class GuidesTest : public CachedCoatTest {
  protected:
   /// Writes a guide on every `step`-th follicle, and copies of all of them: straight from the root to
   /// root + tip(root, normal). `place` moves the points of each copy.
@@ -61,7 +60,6 @@ class GuidesTest : public OperatorTest {
     return p;
   }
 
-  TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "guides.hair";
   std::vector<V3f> roots_;
 };
@@ -86,7 +84,7 @@ TEST_F(GuidesTest, CopiesOfGuidesChangeNothing) {
       follicles_.size(), [](const V3f&, const V3f& normal) { return normal * 2.0f; }, 2,
       [](const V3f& point, int copy) { return point + V3f(1e-6f * static_cast<float>(copy), 0, 0); });
   const GuidesParams near_by = params();
-  EXPECT_GT(GuideSet({near_by.file, {}, 1, V3f(0)}, context()).size(), 1u);
+  EXPECT_EQ(GuideSet({near_by.file, {}, 1, V3f(0)}, context()).size(), 1u);
   EXPECT_EQ(GuideSet({near_by.file, {}, 1, V3f(0)}, context()).spacing(), 0);
 }
 
@@ -131,12 +129,69 @@ TEST_F(GuidesTest, GuidesCombedApartPartTheHair) {
   }
 }
 
+TEST_F(GuidesTest, OneWarningSaysHowManyStrandsFindNoGuide) {
+  write_guides(3, [](const V3f& root) { return root.x > 0 ? 0.5f : 0.0f; });  // the others are dropped
+  const std::string line = "- guides: {file: " + file_.string() + ", radius: 0.2";
+  make(Coat{line + "}\n", "", 1000});
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("of 1000 strands of groom 'coat' have no guide within `radius`"),
+            std::string::npos)
+      << warnings_[0];
+  const int missed = std::stoi(warnings_[0].substr(warnings_[0].find(": ") + 2));
+  EXPECT_NEAR(missed, 400, 60);  // half of them, less a strip as wide as the radius
+  warnings_.clear();
+  make(Coat{line + ", mask: {ramp: {along: x, knots: [[0, 0], [0, 1]]}}}\n", "", 1000});
+  make(Coat{line + ", growth_radius: 0.1}\n", "", 1000});
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+}
+
+TEST_F(GuidesTest, MirroredGuidesShapeTheOtherSide) {
+  // Guides on the right half only, leaning up and outwards.
+  const auto tip = [](const V3f& root, const V3f& normal) {
+    return root.x > 0.05f ? (normal + V3f(0.4f, 0.4f, 0)) * 0.3f : V3f(0);
+  };
+  write_guides(3, tip, 1, [](const V3f& point, int) { return point; });
+  GuidesParams mirrored = params();
+  mirrored.mirror = V3f(-2, 0, 0);
+  mirrored.radius = 0.3f;
+  const Guides op = prepared<Guides>(mirrored);
+  size_t left = 0;
+  for (size_t first = 0; first < follicles_.size(); first += kBlockStrands) {
+    auto batch = straight(first);
+    op.apply(*batch);
+    for (size_t s = 0; s < batch->count; ++s) {
+      const V3f root = vector_at(batch->rest.position, s);
+      if (root.x > -0.3f) continue;
+      const V3f want = (vector_at(batch->rest.normal, s) + V3f(-0.4f, 0.4f, 0)).normalized();
+      EXPECT_GT(batch->offset(7, s).normalized().dot(want), 0.95f) << root;
+      ++left;
+    }
+  }
+  EXPECT_GT(left, 200u);
+  mirrored.mirror = V3f(0);
+  EXPECT_THROW(prepared<Guides>(mirrored), Error);
+}
+
 TEST_F(GuidesTest, Bounds) {
   write_guides(9, [](const V3f&) { return 1.2f; });
   check_bounds(prepared<Guides>(params()), {1, 1, 0});
   GuidesParams half = params();
   half.amount = Field(0.5f);
   check_bounds(prepared<Guides>(half), {1, 1, 0});
+}
+
+TEST_F(GuidesTest, CopiesCountOnceButOtherGuidesAtTheSamePlaceCount) {
+  const auto up = [](const V3f&, const V3f& normal) { return normal * 0.5f; };
+  write_guides(9, up, 3, [](const V3f& point, int copy) {
+    return point + V3f(0.002f * static_cast<float>(copy), 0, 0);
+  });
+  const size_t places = (follicles_.size() + 8) / 9;
+  EXPECT_EQ(GuideSet({params().file, {}, 1, V3f(0)}, context()).size(), places);
+  // Twice as long: another guide.
+  write_guides(9, up, 2, [](const V3f& point, int copy) {
+    return point + point.normalized() * (copy * std::max(0.0f, point.length() - 1.02f));
+  });
+  EXPECT_GT(GuideSet({params().file, {}, 1, V3f(0)}, context()).size(), places + 20);
 }
 
 TEST_F(GuidesTest, SpreadKeepsFolliclesNearGuides) {

@@ -33,5 +33,16 @@ TEST_F(LengthTest, StrandsAreAsLongAsAsked) {
   EXPECT_NEAR(sum / static_cast<float>(batch->count), 2.625f, 0.05f);
 }
 
+TEST_F(LengthTest, AddsToTheLength) {
+  for (const float add : {0.5f, -0.3f, -2.0f}) {
+    const Length op = prepared<Length>({.value = {}, .scale = Field(2.0f), .add = Field(add)});
+    check_bounds(op, {0.4f, 0.4f, 0}, add < -1 ? -1.0f : 0.4f);
+    auto batch = straight();
+    op.apply(*batch);
+    for (size_t s = 0; s < batch->count; ++s)
+      EXPECT_NEAR(length_of(*batch, s), std::max(0.0f, 2 + add), 1e-5f);
+  }
+}
+
 }  // namespace
 }  // namespace pelage

@@ -72,6 +72,21 @@ TEST_F(MaskedOperators, KeepEveryBitWhereTheMaskIsZeroAndSetItWhereItIsOne) {
   }
 }
 
+TEST_F(MaskedOperators, EveryOperatorHasAnAmountBesideItsMask) {
+  const auto full = grown("noise: {amplitude: 0.1}"), half = grown("noise: {amplitude: 0.1, amount: 0.5}");
+  const auto quarter = grown("noise: {amplitude: 0.1, amount: 0.5, mask: 0.5}"), before = grown("length: {}");
+  for (size_t s = 0; s < full->count; ++s) {
+    const V3f moved = full->offset(7, s) - before->offset(7, s);
+    EXPECT_LT((half->offset(7, s) - before->offset(7, s) - moved * 0.5f).length(), 1e-6f);
+    EXPECT_LT((quarter->offset(7, s) - before->offset(7, s) - moved * 0.25f).length(), 1e-6f);
+  }
+  for (const std::string op : kOperators) {
+    const bool own = op.find("amount") != std::string::npos;
+    const auto off = grown(op + (own ? ", mask: 0}" : ", amount: 0}"));
+    for (size_t s = 0; s < off->count; ++s) EXPECT_EQ(off->offset(7, s), before->offset(7, s)) << op;
+  }
+}
+
 TEST_F(MaskedOperators, InterpolateInBetweenAndAlongTheStrand) {
   const auto half = grown("length: {value: 0.5, mask: 0.5}");
   const auto tip =

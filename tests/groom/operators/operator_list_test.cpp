@@ -49,12 +49,15 @@ TEST(OperatorList, NamesTheNearestOperatorAndKey) {
   EXPECT_NE(message_of("- guides: {}\n").find("file"), std::string::npos);
   EXPECT_EQ(message_of("- length: {value: 1, maks: 0.5}\n"),
             "scene.yaml:2:24: unknown key 'maks' in length; did you mean 'mask'?");
+  EXPECT_EQ(message_of("- length: {value: 1, amuont: 0.5}\n"),
+            "scene.yaml:2:24: unknown key 'amuont' in length; did you mean 'amount'?");
+  EXPECT_NE(message_of("- length: {value: 1, amount: 2}\n").find("scene.yaml:2:32: "), std::string::npos);
   EXPECT_NE(message_of("- length: {value: 1, mask: 2}\n").find("scene.yaml:2:30: "), std::string::npos);
 }
 
 TEST(OperatorList, EveryOperatorIsInTheManual) {
   const std::vector<const SchemaInfo*> blocks = ValueReader<OperatorList>::blocks();
-  EXPECT_EQ(blocks.size(), 12u);  // the operators, and the key `mask` of each
+  EXPECT_EQ(blocks.size(), 17u);  // the operators, and the keys `mask` and `amount` of each
   for (const SchemaInfo* block : blocks) {
     EXPECT_FALSE(block->help().empty());
     for (const KeyInfo& key : block->keys())
