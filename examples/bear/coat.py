@@ -19,10 +19,10 @@ def length(p, part):
     if part == "lid":
         return 0.28 + 0.5 * vec.smoothstep(1.5, 2.6, vec.distance((x, y, z), shape.eye_centre()))
     if part == "ear_back":
-        return 3.4
+        return 3.8
     if part == "ear_front":
-        return 3.0
-    base = 0.55 + 0.75 * vec.smoothstep(20, 13, z) + 1.3 * vec.smoothstep(13, 5, z) + 1.6 * vec.smoothstep(6, -6, z)
+        return 3.6
+    base = 0.75 + 1.05 * vec.smoothstep(20, 13, z) + 1.3 * vec.smoothstep(13, 5, z) + 1.6 * vec.smoothstep(6, -6, z)
     base += 4.0 * vec.smoothstep(-5, -20, z)
     low = vec.smoothstep(2.0, -7.0, y)
     base += low * (1.5 * vec.smoothstep(13, 6, z) + 2.2 * vec.smoothstep(6, -4, z))      # cheeks and beard
@@ -35,7 +35,7 @@ def density(p, part):
     if part in ("lid", "ear_back"):
         return 1.0
     if part == "ear_front":
-        return 0.45
+        return 0.7
     lips = math.exp(-((p[1] - shape.mouth_height(p[2])) / 0.4) ** 2) * vec.smoothstep(8.2, 10.0, p[2])
     pad = vec.smoothstep(1.9, 2.3, math.hypot(p[0] / 1.2, p[1] - shape.NOSE[1]) + 4 * vec.smoothstep(20.2, 18.0, p[2]))
     return (1 - lips) * pad * (1 - fade(p, shape.eye_centre(), 1.5, 1.9))
@@ -50,10 +50,10 @@ def pale(p, part):
         return 0.35
     if part == "ear_front":
         return 0.62
-    muzzle = 0.55 * vec.smoothstep(6.5, 12.0, z) * vec.smoothstep(22.5, 15.0, z)
+    muzzle = 0.44 * vec.smoothstep(5.0, 13.0, z) * vec.smoothstep(22.5, 15.0, z)
     crown = 0.42 * vec.smoothstep(4.0, 10.0, y) * vec.smoothstep(9.0, 1.0, z)
     cheek = 0.30 * fade(p, (11.0, -2.0, -2.0), 2.0, 9.0)
-    mane = 0.50 * vec.smoothstep(-6.0, -22.0, z)
+    mane = 0.40 * vec.smoothstep(-6.0, -22.0, z)
     around_eye = 1 - 0.85 * fade(p, shape.eye_centre(), 1.5, 4.6)
     return min(1.0, (0.12 + max(muzzle, crown + cheek, mane)) * around_eye)
 
