@@ -131,6 +131,7 @@ const Schema<MixForm>& MixForm::schema() {
     strands: 20000
     operators:
       - color: {value: {mix: [[0.05, 0.03, 0.02], [0.8, 0.5, 0.25]], by: {threshold: {noise: {frequency: 1.5}}, at: 0, width: 0.3}}})");
+    s.set_picture("Left: one colour. Right: two colours, mixed by noise.");
     s.key("mix", &MixForm::mix, {.help = "Two fields", .required = true});
     s.key(
         "by", &MixForm::by,

@@ -99,6 +99,7 @@ const Schema<HeightForm>& HeightForm::schema() {
     strands: 20000
     operators:
       - length: {value: {height: z}})");
+    s.set_picture("Left: constant length. Right: length that grows along z, from 0 to 1.");
     s.key("height", &HeightForm::height, {.help = "Direction in the skin's rest space", .required = true});
     return s;
   }();
@@ -133,7 +134,8 @@ const Schema<DistanceForm>& DistanceForm::schema() {
     skin: patch
     strands: 20000
     operators:
-      - length: {value: {remap: {distance: {line: [[-1.5, 0, -1], [1.5, 0, 1]]}}, knots: [[0, 0.1], [0.8, 1]]}})");
+      - length: {value: {remap: {distance: {line: [[-1.8, 0.2, -1.2], [0, 0.6, 0], [1.8, 0.2, 1.2]]}}, knots: [[0.2, 0.05], [0.5, 0.5]]}})");
+    s.set_picture("Left: constant length. Right: length that grows with the distance from a line.");
     s.key("distance", &DistanceForm::distance,
           {.help = "What the distance is measured from", .required = true});
     return s;

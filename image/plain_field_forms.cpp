@@ -152,8 +152,10 @@ const Schema<MapForm>& MapForm::schema() {
     skin: patch
     strands: 20000
     operators:
-      - length: {value: {map: length.png, channel: r, range: [0.1, 1]}})");
-    s.set_picture("Left: constant length. Right: length from an image, short where it is dark.");
+      - length: {value: {map: length.png, channel: r, range: [0.1, 1], projection: planar, axis: y, size: [1.5, 1, 1.5], wrap: repeat}})");
+    s.set_picture(
+        "Left: length from an image by texture coordinates, short where it is dark. Right: the same image "
+        "with `projection: planar`, seen along y and repeated.");
     s.key("map", &MapForm::map,
           {.help =
                "Image file of any common format. `<UDIM>` or `%(UDIM)d` in the name is the number of a UDIM "

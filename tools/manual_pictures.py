@@ -55,7 +55,7 @@ ABOVE = {"position": "[0, 4.2, 5]", "look_at": "[0, 0.3, 0]", "strands": 800}
 
 # Sections with a picture: the operators of the left half, and settings of both.
 PICTURES = {
-    "map field": {"before": LENGTH, **ABOVE},
+    "map field": {"before": "- length: {value: {map: length.png, channel: r, range: [0.1, 1]}}", **ABOVE},
     "ramp field": {"before": LENGTH, **ABOVE},
     "noise field": {"before": LENGTH, **ABOVE},
     "attribute field": {"before": LENGTH + "\n- clump: {spacing: 0.5, amount: 0.8}\n- color: {value: 0.5}",
@@ -64,7 +64,11 @@ PICTURES = {
     "length": {"before": "- length: {value: 0.8}"},
     "add field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
     "min field": {"before": "- length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}}", **ABOVE},
+    "mix field": {"before": LENGTH + "\n- color: {value: [0.3, 0.18, 0.1]}", "first": LENGTH, **ABOVE, "strands": 2000,
+                  "color": "{attribute: color}"},
     "sphere field": {"before": LENGTH, **ABOVE},
+    "distance field": {"before": "- length: {value: 0.5}", **ABOVE},
+    "height field": {"before": LENGTH, **ABOVE},
     "region field": {"before": "- length: {value: 0.4}", "first": "- length: {value: 0.4}",
                      "regions": "regions: {spots: {threshold: {noise: {frequency: 1.5}}, at: 0}}\n", **ABOVE},
     "operator mask": {"before": LENGTH + "\n- comb: {direction: [1, 0, 0], lift: 0.1}", "first": LENGTH},

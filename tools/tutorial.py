@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tutorial.py [PICTURE...]: renders the pictures of docs/TUTORIAL.md from the scenes in the page."""
+"""tutorial.py [PICTURE...]: renders the pictures of docs/TUTORIAL.md from the scenes in the page. Needs oiiotool."""
 import pathlib
 import re
 import subprocess
@@ -12,6 +12,7 @@ import pictures
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "TUTORIAL.md"
 MAX_BYTES = 60_000
+NEW = re.compile(r"^pelage (new .*-o hamster.yaml.*)$", re.MULTILINE)   # the command that writes the first scene
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$|^!\[[^\]]*\]\(([^)]+)\)$", re.MULTILINE | re.DOTALL)
 
 
@@ -26,9 +27,10 @@ def sections(text):
     return {part.split(":")[0]: part.rstrip("\n") + "\n" for part in parts if part.strip()}
 
 
-def scenes(text):
-    """The scene as it is at each picture. A section replaces the section of its name, as the page says."""
-    scene, result = {}, {}
+def scenes(text, first):
+    """The scene as it is at each picture, from the sections `first` on. A section replaces the section of its name, as
+    the page says."""
+    scene, result = dict(first), {}
     for kind, content in blocks(text):
         if kind == "yaml":
             scene.update(sections(content))
@@ -37,27 +39,28 @@ def scenes(text):
     return result
 
 
-def small_picture(ppm):
-    """With as many colours as MAX_BYTES have room for."""
-    for colors in (128, 96, 64, 48):
-        png = pictures.small_png(ppm, colors)
-        if len(png) <= MAX_BYTES:
+def small_picture(png, path):
+    """Writes a JPEG of at most MAX_BYTES, without metadata."""
+    for quality in (94, 90, 86, 82):
+        subprocess.run(["oiiotool", png, "--compression", f"jpeg:{quality}", "-o", path], check=True)
+        path.write_bytes(pictures.plain_jpeg(path.read_bytes()))
+        if path.stat().st_size <= MAX_BYTES:
             break
-    return png
 
 
 def main(wanted):
+    pelage = ROOT / "build/release/bin/pelage"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        scene, image, screen = (folder / file for file in ("scene.yaml", "scene.exr", "scene.ppm"))
+        text = PAGE.read_text()
         subprocess.run([ROOT / "examples/make_hamster.py", folder], check=True)
-        for picture, text in scenes(PAGE.read_text()).items():
+        subprocess.run([pelage, *NEW.search(text)[1].split()], cwd=folder, check=True)
+        for picture, scene in scenes(text, sections((folder / "hamster.yaml").read_text())).items():
             if wanted and not any(part in picture for part in wanted):
                 continue
-            scene.write_text(text)
-            subprocess.run([ROOT / "build/release/bin/pelage", "render", scene, "-o", image, "--quiet"], check=True)
-            subprocess.run([ROOT / "tools/exr_to_png", image, screen], check=True)
-            (PAGE.parent / picture).write_bytes(small_picture(screen.read_bytes()))
+            (folder / "scene.yaml").write_text(scene)
+            subprocess.run([pelage, "render", folder / "scene.yaml", "-o", folder / "scene.png", "--quiet"], check=True)
+            small_picture(folder / "scene.png", PAGE.parent / picture)
             print(picture, (PAGE.parent / picture).stat().st_size, "bytes", flush=True)
 
 

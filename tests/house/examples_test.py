@@ -38,6 +38,16 @@ class Examples(unittest.TestCase):
             self.assertEqual(statistics["strands_unique"], 25 * 8000)
             self.assertEqual(statistics["characters_in_frame"], 25)
 
+    def test_the_bear_is_what_its_script_writes(self):
+        sys.path.insert(0, str(EXAMPLES))
+        import make_bear
+        with tempfile.TemporaryDirectory() as folder:
+            make_bear.write_meshes(pathlib.Path(folder))
+            written = sorted(pathlib.Path(folder).iterdir())
+            self.assertEqual(len(written), 4)
+            for path in written:
+                self.assertEqual(path.read_text(), (EXAMPLES / "bear" / path.name).read_text(), path.name)
+
 
 if __name__ == "__main__":
     unittest.main()

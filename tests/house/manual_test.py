@@ -11,7 +11,7 @@ MANUAL = ROOT / "docs" / "MANUAL.md"
 OPERATORS = ("length", "comb", "part", "swirl", "bend", "clump", "wet", "braid", "avoid", "curl", "frizz", "noise", "guides", "push_out", "width", "color",
              "operator mask")
 FIELDS = tuple(f"{kind} field" for kind in (
-    "map", "ramp", "noise", "attribute", "product", "add", "min", "sphere", "region"))
+    "map", "ramp", "noise", "attribute", "product", "add", "min", "mix", "sphere", "distance", "height", "region"))
 
 
 def load_pictures():

@@ -39,6 +39,8 @@ def follow(text, folder):
             run = subprocess.run(["bash", "-euc", content + '\nprintf "\\n%s\\n%s" "$PWD" "$PATH"'], cwd=place,
                                  env={**os.environ, "PATH": path}, capture_output=True, text=True, timeout=240)
             said.append((run.returncode, run.stderr))
+            if "pelage new" in content and run.returncode == 0:
+                scene = tutorial.sections((place / "hamster.yaml").read_text())
             if run.returncode == 0:
                 place, path = pathlib.Path(run.stdout.splitlines()[-2]), run.stdout.splitlines()[-1]
     return place, said
@@ -61,7 +63,7 @@ class Tutorial(unittest.TestCase):
     def test_every_step_shows_its_picture(self):
         steps = re.split(r"^## (?=\d)", TEXT, flags=re.MULTILINE)[1:]
         self.assertEqual([len(re.findall(r"!\[", step)) for step in steps], [1] * len(steps))
-        for picture in tutorial.scenes(TEXT):
+        for picture in tutorial.scenes(TEXT, {}):
             self.assertLessEqual((tutorial.PAGE.parent / picture).stat().st_size, tutorial.MAX_BYTES, picture)
 
 
