@@ -7,6 +7,8 @@
 #include "render/fibre/dielectric.h"
 #include "render/fibre/longitudinal.h"
 #include "render/material/absorption.h"
+#include "render/material/fibre_params.h"
+#include "render/material/yan_params.h"
 #include "tests/render/random.h"
 #include "tests/support/chi_square.h"
 
