@@ -13,6 +13,7 @@ std::string shown_value(const T& value) {
 }
 
 std::string describe_item(const SkinParams& skin) {
+  if (skin.mesh.empty()) return "strands without a surface";
   std::string text = fmt::format("{}, {}", skin.mesh.path.string(), shown_value(skin.scheme));
   if (skin.poses) {
     text += fmt::format(", {} poses{}", skin.poses->count, skin.poses->cycle ? " in a cycle" : "");

@@ -16,8 +16,9 @@ class PoseSequence::Files {
  public:
   using Positions = BlendedPose::Positions;
 
-  Files(std::vector<std::filesystem::path> paths, const MeshOrder& order, MemoryLedger& ledger)
-      : paths_(std::move(paths)), order_(order), ledger_(ledger), read_(paths_.size()) {
+  Files(std::vector<std::filesystem::path> paths, const MeshOrder& order, MemoryLedger& ledger,
+        const M44f& to_scene)
+      : paths_(std::move(paths)), order_(order), ledger_(ledger), to_scene_(to_scene), read_(paths_.size()) {
     PELAGE_CHECK(!paths_.empty());
   }
   ~Files() { ledger_.charge(MemoryTag::kSkins, -charged_); }
@@ -35,7 +36,11 @@ class PoseSequence::Files {
         kept_.erase(kept_.begin());
       }
       require_memory(ledger_, pose_bytes(), "the pose " + paths_[file].string());
-      read_[file] = std::make_shared<const std::vector<V3f>>(read_obj_positions(paths_[file], order_));
+      std::vector<V3f> positions = read_obj_positions(paths_[file], order_);
+      if (to_scene_ != M44f()) {
+        for (V3f& point : positions) point *= to_scene_;
+      }
+      read_[file] = std::make_shared<const std::vector<V3f>>(std::move(positions));
       kept_.push_back(file);
       charge(1);
     }
@@ -55,6 +60,7 @@ class PoseSequence::Files {
   const std::vector<std::filesystem::path> paths_;
   const MeshOrder order_;
   MemoryLedger& ledger_;
+  const M44f to_scene_;
   std::mutex mutex_;             // guards the following
   std::vector<Positions> read_;  // of each file, or null
   std::vector<size_t> kept_;     // files in memory, the one read first first
@@ -62,8 +68,9 @@ class PoseSequence::Files {
 };
 
 PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle,
-                           const MeshOrder& order, MemoryLedger& ledger, double frames_per_pose)
-    : files_(std::make_unique<Files>(std::move(files), order, ledger)),
+                           const MeshOrder& order, MemoryLedger& ledger, double frames_per_pose,
+                           const M44f& to_scene)
+    : files_(std::make_unique<Files>(std::move(files), order, ledger, to_scene)),
       first_(first),
       cycle_(cycle),
       frames_per_pose_(frames_per_pose) {}

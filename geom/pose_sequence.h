@@ -48,8 +48,9 @@ class PoseSequence {
   static constexpr int64_t kMaxBytes = int64_t(64) << 20;
 
   /// `order`: of the mesh as its file has it. `frames_per_pose`: number of frames from one pose to the next.
+  /// `to_scene`: from the space of the files to object space (row vectors: p * M).
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, const MeshOrder& order,
-               MemoryLedger& ledger, double frames_per_pose = 1);
+               MemoryLedger& ledger, double frames_per_pose = 1, const M44f& to_scene = M44f());
   PoseSequence(PoseSequence&&) noexcept;
   ~PoseSequence();
 

@@ -230,6 +230,7 @@ void LiveRenderer::load(const SceneEdit& edit, Redo redo, const Job& job) {
     state_.update([&](ViewStatus& status) {
       status.camera.position = camera.position.at(frame);
       status.camera.look_at = camera.look_at.at(frame);
+      status.camera.height = camera.orthographic ? camera.orthographic->at(frame) : 0;
     });
   }
   loaded_->assets.textures.forget_unused();

@@ -28,7 +28,12 @@ SceneParts camera_parts(const SceneParts& parts) {
 ViewCamera camera_of(const SceneDescription& scene, bool moved) {
   const double frame = scene.frames.frames.front();
   const CameraParams& camera = scene.camera;
-  return {camera.position.at(frame), camera.look_at.at(frame), camera.up.at(frame), camera.fov.at(frame),
+  const float aspect = static_cast<float>(scene.image.width) / static_cast<float>(scene.image.height);
+  return {camera.position.at(frame),
+          camera.look_at.at(frame),
+          camera.up.at(frame),
+          camera.fov_at(frame, aspect),
+          camera.orthographic ? camera.orthographic->at(frame) : 0,
           moved};
 }
 

@@ -44,6 +44,7 @@ std::string state_json(ViewState& view, const Picture* picture) {
                      {"look_at", list(camera.look_at)},
                      {"up", list(camera.up)},
                      {"fov", camera.fov},
+                     {"height", camera.height},
                      {"moved", camera.moved},
                      {"note", status.camera_note}};
   state["region"] =

@@ -21,6 +21,7 @@ struct SceneEdit;
 struct ViewCamera {
   V3f position{0}, look_at{0}, up{0, 1, 0};
   float fov = 40;
+  float height = 0;    ///< of an orthographic picture, scene units; 0: perspective, or from `fov`
   bool moved = false;  ///< by a client; the scene file has another camera
 };
 

@@ -27,6 +27,7 @@ std::vector<std::filesystem::path> asset_files(const SceneDescription& scene) {
     if (!file.empty()) files.push_back(file.path);
   };
   for (const auto& skin : scene.skins.items) add(skin.value.mesh);
+  add(scene.image.background);
   for (const auto& archive : scene.archives.items) add(archive.value.rib);
   for (const auto& groom : scene.grooms.items) add_groom_files(groom.value, files);
   for (const auto& material : scene.materials.items) {

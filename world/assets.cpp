@@ -15,68 +15,17 @@
 #include "base/nearest_name.h"
 #include "geom/io/obj_file.h"
 #include "groom/strands/skin_fields.h"
-#include "procedurals/crowd/crowd.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
 #include "world/frame_characters.h"
 #include "world/map_check.h"
+#include "world/scene_crowds.h"
 #include "world/scene_origin.h"
 #include "world/scene_schema.h"
 #include "world/skin_memory_check.h"
 
 namespace pelage {
 namespace {
-
-size_t character_index(const SceneDescription& scene, const std::string& name) {
-  const auto& items = scene.characters.items;
-  return static_cast<size_t>(
-      std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == name; }) -
-      items.begin());  // load_scene checked that it exists
-}
-
-/// Memory of a crowd's animals in a frame, assuming prototypes in equal numbers.
-int64_t bytes_in_frame(const SceneDescription& scene, const CrowdParams& crowd,
-                       const std::vector<int64_t>& drawn_bytes) {
-  double sum = 0;
-  for (const NameReference& of : crowd.of)
-    sum += static_cast<double>(drawn_bytes[character_index(scene, of.name)]);
-  return static_cast<int64_t>(sum / static_cast<double>(crowd.of.size()) * static_cast<double>(crowd.count));
-}
-
-std::vector<Footprint> footprints_of(const SceneDescription& scene, const CrowdParams& crowd) {
-  std::vector<Footprint> footprints;
-  for (const NameReference& of : crowd.of)
-    footprints.push_back(scene.characters.find(of.name)->value.footprint);
-  return footprints;
-}
-
-/// Places the crowds of a scene one after the other. Each crowd keeps its distance from the animals of
-/// earlier crowds. Before placing any animal, throws Error (kMemory) if placing a crowd, or rendering all
-/// crowds up to it, does not fit `render.memory`. Passes on the errors of make_crowd(). `drawn_bytes`: for
-/// each character of the scene, in order, the memory of one animal in a frame (frame_character_bytes()).
-std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
-                                                  const std::vector<int64_t>& drawn_bytes, const Job& job) {
-  int64_t in_frame = 0;
-  size_t placed = 0;
-  for (const auto& [name, position, params] : scene.crowds.items) {
-    in_frame += bytes_in_frame(scene, params, drawn_bytes);
-    const int64_t making = crowd_temporary_bytes(params, footprints_of(scene, params), placed);
-    require_memory(job.ledger, std::max(making, in_frame),
-                   fmt::format("crowd '{}' with {} animals", name, params.count));
-    placed += static_cast<size_t>(params.count);
-  }
-  std::vector<std::vector<CrowdMember>> crowds;
-  std::vector<PlacedFootprint> taken;
-  const bool others_follow = scene.crowds.items.size() > 1;
-  for (const auto& [name, position, params] : scene.crowds.items) {
-    const std::vector<Footprint> footprints = footprints_of(scene, params);
-    crowds.push_back(make_crowd(name, position, params, footprints, job, taken));
-    if (!others_follow) break;
-    for (const CrowdMember& member : crowds.back())
-      taken.push_back(placed_footprint(member, footprints[member.prototype]));
-  }
-  return crowds;
-}
 
 // Hashes of everything from which an asset is made: its part of the scene, and the stamps of its files. Equal
 // keys mean equal assets within one process. Take a key before the files are read: if a file changes
@@ -97,8 +46,9 @@ void add_files(const std::vector<std::filesystem::path>& files, ContentHasher& h
 ContentHash skin_key(const SceneDescription& scene, const std::string& name, const SkinParams& params) {
   ContentHasher hasher;
   add_part(scene, "skins." + name, hasher);
-  add_files({params.mesh.path}, hasher);
+  if (!params.mesh.empty()) add_files({params.mesh.path}, hasher);
   if (params.poses) add_files(pose_files(*params.poses), hasher);
+  hasher.add(params.transform.meters_per_unit);
   return hasher.digest();
 }
 
@@ -110,6 +60,7 @@ ContentHash groom_key(const SceneDescription& scene, const std::string& name, co
   std::vector<std::filesystem::path> files;
   add_groom_files(params, files);
   add_files(files, hasher);
+  if (params.transform) hasher.add(params.transform->meters_per_unit);
   return hasher.add(skin).add(params.leaf_size()).digest();  // its size may depend on the memory limit
 }
 
@@ -133,20 +84,33 @@ void require_file(const std::filesystem::path& file, const SourcePosition& named
   if (!exists) throw Error(ErrorKind::kInput, named_at, "no such file " + file.string());
 }
 
-PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, MemoryLedger& ledger) {
+PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, const M44f& to_scene,
+                           MemoryLedger& ledger) {
   const std::vector<std::filesystem::path> files = pose_files(params);
   for (const std::filesystem::path& file : files) require_file(file, params.files.position);
-  return PoseSequence(files, params.first, params.cycle, order, ledger, params.frames_per_pose);
+  return PoseSequence(files, params.first, params.cycle, order, ledger, params.frames_per_pose, to_scene);
+}
+
+/// A cage whose only face is a hole.
+ControlMesh no_surface() {
+  ControlMesh cage;
+  cage.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  cage.face_sizes = {3};
+  cage.face_vertices = {0, 1, 2};
+  cage.holes = {0};
+  return cage;
 }
 
 Assets::Skin load_skin(const std::string& name, const SkinParams& params, SharedTopologies& topologies,
                        const Job& job) {
-  require_file(params.mesh.path, params.mesh.position);
-  MemoryCharge reading = reserve_reading(name, params, job);
-  ControlMesh cage = read_obj(params.mesh.path, job);
+  if (!params.mesh.empty()) require_file(params.mesh.path, params.mesh.position);
+  MemoryCharge reading = params.mesh.empty() ? MemoryCharge() : reserve_reading(name, params, job);
+  ControlMesh cage = params.mesh.empty() ? no_surface() : read_obj(params.mesh.path, job);
   const MeshOrder order = mesh_order(cage);
   warn_of_equal_faces(merge_equal_faces(cage), to_string(params.mesh.position), params.mesh.path.string(),
                       job);
+  const M44f to_scene = params.transform.matrix();
+  transform_cage(to_scene, cage);
   reading = {};
   const MemoryCharge making = reserve_skin(name, params, cage, job);
   const auto topology =
@@ -155,7 +119,7 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
   job.check_stop();
   auto rest = std::make_shared<LimitSurface>(topology, cage.positions);
   Assets::Skin skin{std::move(rest), std::move(cage), order, {}, {}, {}};
-  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, order, job.ledger));
+  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, order, to_scene, job.ledger));
   return skin;
 }
 
@@ -198,14 +162,6 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
     }
     throw Error(error.kind(), std::move(problems));
   }
-}
-
-/// Memory of each character in a frame, by its index in the scene.
-std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
-  std::vector<int64_t> bytes;
-  for (const auto& [name, position, params] : scene.characters.items)
-    bytes.push_back(frame_character_bytes(scene, assets, name, params));
-  return bytes;
 }
 
 /// "skins.NAME" and "grooms.NAME" to keys.
@@ -329,10 +285,11 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
       if (!poses) continue;
       job.check_stop();
       const MeshOrder& order = assets.skins.at(skin.name).order;
-      assets.part_poses.emplace(std::pair(name, part), pose_sequence(*poses, order, job.ledger));
+      const M44f to_scene = scene.skins.find(skin.name)->value.transform.matrix();
+      assets.part_poses.emplace(std::pair(name, part), pose_sequence(*poses, order, to_scene, job.ledger));
     }
   }
-  assets.crowds = make_crowds(scene, drawn_bytes(scene, assets), job);
+  assets.crowds = place_crowds(scene, assets, job);
   for (const auto& crowd : assets.crowds) {
     assets.charges.emplace_back(job.ledger, MemoryTag::kSkins,
                                 static_cast<int64_t>(crowd.capacity() * sizeof(CrowdMember)));

@@ -9,32 +9,50 @@
 #include <numeric>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
-#include "world/frame_characters.h"
 
 namespace pelage {
 namespace {
 
 constexpr double kMargin = 0.05;  // of the width or height of the picture, on each side
 
-/// What a camera sees of balls, along one axis of the picture. Each of the two bounds is the largest of
-/// radius +- cos(angle) * offset - sin(angle) * depth, where `angle` is half the field of view: a plane
-/// through the eye and a border of the picture has all balls on its inner side if the eye is beyond the
-/// bound.
-struct SeenExtent {
+/// A border of the picture: the tangent of the angle between the view axis and the plane through the eye and
+/// the border. `bound` is the largest of radius + cosine * offset - sine * depth of all balls: they are on
+/// the inner side of the plane if the eye is at most at this bound. `offset`: towards the border.
+struct Border {
   double sine, cosine;
-  double upper = -std::numeric_limits<double>::infinity(), lower = upper;
+  double bound = -std::numeric_limits<double>::infinity();
 
-  explicit SeenExtent(double tangent)
+  explicit Border(double tangent)
       : sine(tangent / std::hypot(1, tangent)), cosine(1 / std::hypot(1, tangent)) {}
   void add(double offset, double depth, double radius) {
-    upper = std::max(upper, radius + cosine * offset - sine * depth);
-    lower = std::max(lower, radius - cosine * offset - sine * depth);
+    bound = std::max(bound, radius + cosine * offset - sine * depth);
   }
-  double depth() const { return -(upper + lower) / (2 * sine); }    // of the nearest eye from which both hold
-  double middle() const { return (upper - lower) / (2 * cosine); }  // of an eye between both
+  double offset(double depth) const { return (bound + sine * depth) / cosine; }  // of an eye on the plane
+};
+
+/// What a camera sees of balls, along one axis of the picture. `shift`: of the lens, along this axis.
+struct SeenExtent {
+  Border upper, lower;
+
+  SeenExtent(double tangent, float shift)
+      : upper(tangent * (1 - 2 * kMargin + 2 * double(shift))),
+        lower(tangent * (1 - 2 * kMargin - 2 * double(shift))) {}
+  void add(double offset, double depth, double radius) {
+    upper.add(offset, depth, radius);
+    lower.add(-offset, depth, radius);
+  }
+  double depth() const {  // of the nearest eye from which both hold
+    return -(upper.bound * lower.cosine + lower.bound * upper.cosine) /
+           (upper.sine * lower.cosine + lower.sine * upper.cosine);
+  }
+  double middle(double depth) const {  // of an eye between both
+    return (upper.offset(depth) - lower.offset(depth)) / 2;
+  }
 };
 
 struct PictureAxes {
@@ -47,8 +65,8 @@ struct PlacedEye {
 };
 
 PlacedEye perspective_eye(std::span<const FramedBall> balls, const PictureAxes& axes, double tangent,
-                          double aspect) {
-  SeenExtent wide(tangent * aspect), high(tangent);
+                          double aspect, const V2f& shift) {
+  SeenExtent wide(tangent * aspect, shift.x), high(tangent, shift.y);
   double near = std::numeric_limits<double>::infinity(), far = -near;
   for (const FramedBall& ball : balls) {
     const V3d at(ball.center);
@@ -59,11 +77,12 @@ PlacedEye perspective_eye(std::span<const FramedBall> balls, const PictureAxes& 
     far = std::max(far, depth + radius);
   }
   const double depth = std::min(wide.depth(), high.depth());
-  const V3d eye = wide.middle() * axes.right + high.middle() * axes.up + depth * axes.forward;
+  const V3d eye = wide.middle(depth) * axes.right + high.middle(depth) * axes.up + depth * axes.forward;
   return {eye, eye + (0.5 * (near + far) - depth) * axes.forward};
 }
 
-PlacedEye parallel_eye(std::span<const FramedBall> balls, const PictureAxes& axes, double aspect) {
+PlacedEye parallel_eye(std::span<const FramedBall> balls, const PictureAxes& axes, double aspect,
+                       const V2f& shift) {
   Imath::Box3d box;
   for (const FramedBall& ball : balls) {
     const V3d at(ball.center), local(at.dot(axes.right), at.dot(axes.up), at.dot(axes.forward));
@@ -71,11 +90,12 @@ PlacedEye parallel_eye(std::span<const FramedBall> balls, const PictureAxes& axe
     box.extendBy(local + V3d(ball.radius));
   }
   const V3d size = box.size(), middle = box.center();
+  const double height = std::max(size.y, size.x / aspect) / (1 - 2 * kMargin);
   const auto world = [&](double depth) {
-    return middle.x * axes.right + middle.y * axes.up + depth * axes.forward;
+    return (middle.x - height * aspect * double(shift.x)) * axes.right +
+           (middle.y - height * double(shift.y)) * axes.up + depth * axes.forward;
   };
-  return {world(box.min.z - size.length()), world(middle.z),
-          std::max(size.y, size.x / aspect) / (1 - 2 * kMargin)};
+  return {world(box.min.z - size.length()), world(middle.z), height};
 }
 
 /// The frames of all keys of animated values; one frame if nothing is animated.
@@ -88,7 +108,7 @@ std::set<double> key_frames(const CameraParams& camera) {
   add(camera.position);
   add(camera.look_at);
   add(camera.up);
-  if (!camera.orthographic) add(camera.fov);
+  if (!camera.is_orthographic()) add(camera.focal_length ? *camera.focal_length : camera.fov);
   if (frames.empty()) frames.insert(0);
   return frames;
 }
@@ -116,12 +136,14 @@ void measure_fur(const Groom& groom, const LimitSurface& rest, FurExtent& extent
     const KeptStrands kept{some, widths, {}};
     const Strands strands = groom.grow(leaf, pose, &kept);
     for (size_t s = 0; s < strands.strand_count(); ++s) {
-      const SurfacePoint root = groom.root(leaves[leaf].begin + s, pose, 0);
-      const V3f normal = LimitSurface::frame_of(root).normal;
+      std::optional<SurfacePoint> root;
+      if (groom.grows_on_skin()) root = groom.root(leaves[leaf].begin + s, pose, 0);
       for (size_t i = strands.first_point(s); i < strands.first_point(s + 1); ++i) {
         const V3f point = strands.point(i);
-        extent.height = std::max(extent.height, (point - root.position).dot(normal) + strands.radius(i));
         extent.points.push_back(point);
+        if (!root) continue;
+        const V3f normal = LimitSurface::frame_of(*root).normal;
+        extent.height = std::max(extent.height, (point - root->position).dot(normal) + strands.radius(i));
       }
     }
   }
@@ -137,7 +159,8 @@ const FurExtent& fur_extent(const PartParams& part, const Assets& assets, FurExt
   FurExtent& extent = entry->second;
   for (const auto& item : part.grooms.items) {
     const Groom& groom = *assets.grooms.at(item.name);
-    if (groom.grows_on_skin() && !groom.needs_closest_point()) {
+    const bool alone = part.skin.name == kNoSkin;
+    if ((groom.grows_on_skin() || alone) && !groom.needs_closest_point()) {
       measure_fur(groom, rest, extent);
     } else {
       extent.height = std::max(extent.height, groom.reach());
@@ -209,6 +232,35 @@ std::vector<FramedBall> framed_balls(const SceneDescription& scene, const Assets
 
 }  // namespace
 
+CameraParams focused_camera(CameraParams camera, const Assets& assets,
+                            std::span<const FrameCharacter> characters, double frame) {
+  const std::string& wanted = camera.focus_on.name;
+  if (wanted.empty()) return camera;
+  const V3f eye = camera.position.at(frame), axis = (camera.look_at.at(frame) - eye).normalized();
+  float nearest = std::numeric_limits<float>::infinity();
+  bool shown = false;
+  for (const FrameCharacter& character : characters) {
+    Box3f box;
+    for (size_t part = 0; part < character.params->parts.size(); ++part) {
+      if (character.prototype == wanted || character.params->parts[part].skin.name == wanted)
+        box.extendBy(approximate_box(character, part, assets, frame));
+    }
+    if (box.isEmpty()) continue;
+    shown = true;
+    const float depth = (box.center() - eye).dot(axis);
+    if (depth > 0) nearest = std::min(nearest, depth);
+  }
+  if (!std::isfinite(nearest)) {
+    throw Error(
+        ErrorKind::kInput, camera.focus_on.position,
+        shown ? fmt::format("{} is behind the camera at frame {}: nothing to focus on", quote(wanted), frame)
+              : "no visible character shows " + quote(wanted) + ": nothing to focus on");
+  }
+  camera.focus_distance = Keyed<float>(nearest);
+  if (camera.lens) camera.lens->focus_distance = nearest;
+  return camera;
+}
+
 V3f default_view(const V3f& up) {
   const V3f above = up.length() > 0 ? up.normalized() : V3f(0, 1, 0);
   const V3f front = std::abs(above.z) < 0.9f ? V3f(0, 0, 1) : V3f(0, -1, 0);
@@ -225,16 +277,18 @@ CameraParams camera_around(std::span<const FramedBall> balls, CameraParams camer
     if (!(right.length() > 1e-6 * forward.length() * V3d(camera.up.at(frame)).length())) return camera;
     PictureAxes axes{right.normalized(), {}, forward.normalized()};
     axes.up = axes.right.cross(axes.forward);
-    const double tangent = std::tan(camera.fov.at(frame) * std::numbers::pi / 360) * (1 - 2 * kMargin);
-    const PlacedEye eye = camera.orthographic ? parallel_eye(balls, axes, aspect)
-                                              : perspective_eye(balls, axes, tangent, aspect);
+    const double tangent =
+        std::tan(camera.fov_at(frame, static_cast<float>(aspect)) * std::numbers::pi / 360);
+    const PlacedEye eye = camera.is_orthographic()
+                              ? parallel_eye(balls, axes, aspect, camera.shift)
+                              : perspective_eye(balls, axes, tangent, aspect, camera.shift);
     positions.emplace_back(frame, V3f(eye.position));
     targets.emplace_back(frame, V3f(eye.target));
     heights.emplace_back(frame, static_cast<float>(eye.height));
   }
   camera.position = Keyed<V3f>(std::move(positions));
   camera.look_at = Keyed<V3f>(std::move(targets));
-  if (camera.orthographic) camera.orthographic = Keyed<float>(std::move(heights));
+  if (camera.is_orthographic()) camera.orthographic = Keyed<float>(std::move(heights));
   return camera;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/job.h"
 #include "world/assets.h"
+#include "world/frame_characters.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -29,6 +30,12 @@ struct FramedBall {
 ///
 /// Throws Error: kInput if no visible character shows what `frame` names, kMemory if a pose does not fit.
 CameraParams placed_camera(const SceneDescription& scene, const Assets& assets, const Job& job);
+
+/// Returns the camera of one frame: `camera` (from placed_camera()) with the distance of what `focus_on`
+/// names, which is the depth of the middle of its cages. `characters`: frame_characters(). Throws Error
+/// (kInput) if no visible character shows it, or it is behind the camera.
+CameraParams focused_camera(CameraParams camera, const Assets& assets,
+                            std::span<const FrameCharacter> characters, double frame);
 
 /// Places a camera of this direction so that the picture contains all balls, with the margin. See
 /// placed_camera(). `aspect`: width of the picture divided by its height. A camera without a valid direction

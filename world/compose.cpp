@@ -3,6 +3,7 @@
 #include "world/compose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -10,6 +11,7 @@
 #include "base/version.h"
 #include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"
+#include "render/light/plate_light.h"
 #include "world/archives.h"
 #include "world/camera_frame.h"
 #include "world/frame_characters.h"
@@ -137,10 +139,19 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
 }
 
 LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
-                     const V3f& origin) {
+                     const V3f& origin, const Camera& camera) {
   std::vector<std::unique_ptr<Light>> lights;
+  const float exposure = std::exp2(scene.camera.exposure.at(frame));
   for (const auto& [name, position, params] : scene.lights.items) {
-    lights.push_back(make_light(name, params, frame, assets.textures, job.ledger, origin));
+    LightParams exposed = params;
+    if (auto* sky = std::get_if<EnvironmentLightParams>(&exposed); sky && !scene.image.background.empty())
+      sky->visible = false;
+    if (exposure != 1) std::visit([&](auto& light) { light.radiance *= exposure; }, exposed);
+    lights.push_back(make_light(name, exposed, frame, assets.textures, job.ledger, origin));
+  }
+  if (const AssetPath& plate = scene.image.background; !plate.empty()) {
+    lights.push_back(
+        std::make_unique<PlateLight>(kBackground, assets.textures.load(plate), camera, scene.image.width));
   }
   return LightSet(std::move(lights));
 }
@@ -150,15 +161,16 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
               CoordinateOrigin from) {
   const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
-  const CameraParams camera = placed_camera(scene, assets, job);
+  const CameraParams camera = focused_camera(placed_camera(scene, assets, job), assets, characters, frame);
   const V3f origin = from == CoordinateOrigin::kNearCoats
                          ? scene_origin(scene, assets, characters, camera.position.at(frame), frame, job)
                          : V3f(0);
+  const Camera view(camera, frame, scene.image.width, scene.image.height, origin);
   World world{{{},
                {},
                assets.materials,
-               make_lights(scene, assets, frame, job, origin),
-               Camera(camera, frame, scene.image.width, scene.image.height, origin),
+               make_lights(scene, assets, frame, job, origin, view),
+               view,
                scene.image,
                scene.render,
                origin},
@@ -179,7 +191,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
 
 void recompose_sampling(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
                         World& world) {
-  LightSet lights = make_lights(scene, assets, frame, job, world.scene.origin);
+  LightSet lights = make_lights(scene, assets, frame, job, world.scene.origin, world.scene.camera);
   std::vector<MaterialParams> materials = load_materials(scene, assets, job);
   world.header = header_of(scene, frame);
   assets.materials = std::move(materials);

@@ -34,7 +34,7 @@ struct World {
   WorldCounts counts;
   FrameHeader header;  ///< header of the EXR file; write_frame() adds the results of the render
   std::vector<MemoryCharge> charges;
-  CameraParams camera;     ///< placed_camera()
+  CameraParams camera;     ///< focused_camera()
   ContentHash poses = {};  ///< hash of the surfaces of all skins, over the shutter
 };
 

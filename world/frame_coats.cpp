@@ -97,7 +97,7 @@ FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, doubl
                       const std::set<std::string>& only) {
   const std::vector<FrameCharacter> characters = frame_characters(scene, assets);
   FrameParts parts;
-  parts.camera = placed_camera(scene, assets, job);
+  parts.camera = focused_camera(placed_camera(scene, assets, job), assets, characters, frame);
   FramePoser poser(scene, assets, parts.camera, frame, job);
   for (const FrameCharacter& character : characters) {
     job.check_stop();

@@ -46,7 +46,7 @@ struct FrameCoat {
 struct FrameParts {
   std::vector<FrameSkin> skins;
   std::vector<FrameCoat> coats;
-  CameraParams camera;  ///< placed_camera()
+  CameraParams camera;  ///< focused_camera()
 };
 
 /// Poses the characters of a frame like compose(), but without materials and lights. `only`: the names of

@@ -15,7 +15,10 @@
 #include "scene/overrides.h"
 #include "scene/renamed_keys.h"
 #include "world/asset_files.h"
+#include "world/camera_check.h"
 #include "world/camera_frame.h"
+#include "world/complete_scene.h"
+#include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
 #include "world/presets.h"
 #include "world/regions.h"
@@ -46,8 +49,10 @@ void check_material(const SceneDescription& scene, const NameReference& referenc
 }
 
 void check_part(const SceneDescription& scene, const PartParams& part, Problems& problems) {
-  check_name(part.skin, "skin", scene.skins, problems);
-  check_material(scene, part.material, false, problems);
+  if (part.skin.name != kNoSkin) {
+    check_name(part.skin, "skin", scene.skins, problems);
+    check_material(scene, part.material, false, problems);
+  }
   for (const auto& [name, position, material] : part.grooms.items) {
     const auto* groom = scene.grooms.find(name);
     if (!groom) {
@@ -90,6 +95,9 @@ void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
                  "groom " + quote(groom.name) +
                      " takes its strands from a file; `strands` and `density` must not be given");
   }
+  if (groom.value.transform && !from_file)
+    problems.add(groom.position, "groom " + quote(groom.name) +
+                                     ": `transform` needs a strands_file; the skin has a `transform`, too");
 }
 
 // Checks names that are used in layers of a picture, which would truncate them at a zero byte or at its max
@@ -106,30 +114,36 @@ void check_layer_name(const std::string& what, const std::string& name, const So
   }
 }
 
+bool moves_ever(const SceneDescription& scene, const CharacterParams& character) {
+  bool posed = moves(character.transform);
+  for (const PartParams& part : character.parts) {
+    const auto* skin = scene.skins.find(part.skin.name);
+    posed |= part.poses || (skin && skin->value.poses);
+  }
+  return posed;
+}
+
 void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& item, Problems& problems) {
   const CrowdParams& crowd = item.value;
   const auto refuse = [&](const std::string& why) {
     problems.add(item.position, "crowd " + quote(item.name) + why);
   };
   if (crowd.of.empty()) refuse(" names no character");
+  if (!crowd.ground.name.empty()) {
+    check_name(crowd.ground, "character", scene.characters, problems);
+    const auto* ground = scene.characters.find(crowd.ground.name);
+    bool moves = ground && moves_ever(scene, ground->value);
+    for (const NameReference& name : crowd.of) moves |= name.name == crowd.ground.name;
+    if (moves)
+      problems.add(crowd.ground.position, quote(crowd.ground.name) +
+                                              " moves, or is an animal of the crowd; "
+                                              "the ground must be still");
+  } else if (crowd.tilt > 0) {
+    refuse(": `tilt` needs `ground`");
+  }
   for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
   const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
-}
-
-// Checks the names in `camera.frame`.
-void check_frame(const SceneDescription& scene, Problems& problems) {
-  const NameReference& frame = scene.camera.frame;
-  std::vector<std::string> names = scene.characters.names();
-  for (std::string& skin : scene.skins.names()) names.push_back(std::move(skin));
-  names.emplace_back(kFrameAll);
-  if (!frame.name.empty() && std::find(names.begin(), names.end(), frame.name) == names.end()) {
-    problems.add(frame.position, "there is no skin or character " + quote(frame.name) + " to frame" +
-                                     suggest(frame.name, names));
-  }
-  const std::optional<CameraParams>& detail = scene.render.lod.camera.own;
-  if (detail && !detail->frame.name.empty())
-    problems.add(detail->frame.position, "the camera of `lod` cannot `frame`; give its `position`");
 }
 
 }  // namespace
@@ -155,23 +169,22 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     }
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
-  check_frame(scene, problems);
+  check_camera_names(scene, problems);
   for (const auto& archive : scene.archives.items) {
     for (const auto& material : archive.value.materials.items)
       check_name(material.value, "material", scene.materials, problems);
   }
-  for (const auto& light : scene.lights.items)
+  for (const auto& light : scene.lights.items) {
     check_layer_name("light", light.name, light.position, problems);
+    if (light.name == kBackground && !scene.image.background.empty())
+      problems.add(light.position,
+                   "the layer of `image.background` has this name; give the light another one");
+  }
   for (const auto& groom : scene.grooms.items)
     check_layer_name("groom", groom.name, groom.position, problems);
 }
 
 namespace {
-
-void check_shutter(const SceneDescription& scene, const Value& document, Problems& problems) {
-  if (scene.camera.shutter.x <= scene.camera.shutter.y) return;
-  problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
-}
 
 void check_event_layers(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (!scene.image.event_layers || scene.image.light_layers) return;
@@ -347,12 +360,14 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // If a block could not be read, references to its names would be reported as unknown too.
     if (SceneDescription::schema().read(*document, scene, problems)) {
+      complete_parts(scene, problems);
       check_references(scene, problems);
-      check_shutter(scene, *document, problems);
+      check_camera_keys(scene, *document, problems);
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);
       complete_frame(path, overrides, *document, scene);
+      set_scale(scene);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

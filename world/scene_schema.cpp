@@ -74,6 +74,9 @@ const Schema<SkinParams>& SkinParams::schema() {
                    "edges (`edge-only`)"});
     s.key("poses", &SkinParams::poses,
           {.help = "Posed cages; without them the skin stays at rest", .default_text = "at rest"});
+    s.key("transform", &SkinParams::transform,
+          {.help = "From the coordinates of the mesh and its poses to the space of the characters",
+           .default_text = "as in the file"});
     return s;
   }();
   return table;
@@ -86,8 +89,10 @@ const Schema<PartParams>& PartParams::schema() {
   rat:
     parts:
       - {skin: rat, material: hide, grooms: {under: fur, whiskers: fur}})");
-    s.key("skin", &PartParams::skin, {.help = "Name of a skin", .required = true});
-    s.key("material", &PartParams::material, {.help = "Name of the material of the skin", .required = true});
+    s.key("skin", &PartParams::skin,
+          {.help = "Name of a skin", .default_text = "none: all grooms are strand files without a skin"});
+    s.key("material", &PartParams::material,
+          {.help = "Name of the material of the skin", .default_text = "required with a skin"});
     s.key("grooms", &PartParams::grooms,
           {.help = "Grooms on this skin with their materials: {groom: material}"});
     s.key("poses", &PartParams::poses,
@@ -108,7 +113,10 @@ const Schema<TransformParams>& TransformParams::schema() {
     s.key("translate", &TransformParams::translate, {.unit = "scene units", .help = "Translation"});
     s.key("rotate", &TransformParams::rotate,
           {.unit = "degrees", .help = "Rotation about x, then y, then z"});
-    s.key("scale", &TransformParams::scale, {.help = "Uniform scale", .min = 0, .above_min = true});
+    s.key("scale", &TransformParams::scale,
+          {.help = "Uniform scale. To mirror a character, give its skins a `transform` with a negative scale",
+           .min = 0,
+           .above_min = true});
     return s;
   }();
   return table;

@@ -9,6 +9,7 @@
 
 #include "base/keyed.h"
 #include "base/value_readers.h"
+#include "geom/io/file_transform.h"
 #include "geom/limit_surface.h"
 #include "groom/coat/groom_params.h"
 #include "procedurals/crowd/crowd.h"
@@ -58,18 +59,25 @@ struct PosesParams {
   static const Schema<PosesParams>& schema();
 };
 
+/// Name of the light layer of `image.background`.
+inline constexpr const char* kBackground = "background";
+
+/// Name of the skin without a surface, and of its material, that load_scene() gives to parts without a skin.
+inline constexpr const char* kNoSkin = "(no skin)";
+
 struct SkinParams {
-  AssetPath mesh;
+  AssetPath mesh;  ///< empty: no surface (kNoSkin)
   SubdivisionScheme scheme = SubdivisionScheme::kCatmullClark;
   BoundaryRule boundary = BoundaryRule::kEdgeAndCorner;
   std::optional<PosesParams> poses;
+  FileTransformParams transform;  ///< of the mesh and the poses
   static const Schema<SkinParams>& schema();
 };
 
-/// One skin of a character and the grooms that grow on it.
+/// One skin of a character and the grooms that grow on it, or grooms without a skin.
 struct PartParams {
-  NameReference skin;
-  NameReference material;
+  NameReference skin;                ///< kNoSkin: the grooms are strand files that follow no skin
+  NameReference material;            ///< of the skin
   Named<NameReference> grooms;       ///< from the name of each groom to the name of its material
   std::optional<PosesParams> poses;  ///< empty: the poses of the skin
   static const Schema<PartParams>& schema();

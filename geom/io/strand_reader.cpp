@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geom/io/file_transform.h"
 #include "geom/io/strand_formats.h"
 #include "geom/io/strand_repair.h"
 
@@ -30,8 +31,11 @@ void for_each_range(const RawStrands& raw, const Job& job, const Visit& visit) {
 
 }  // namespace
 
-StrandReader::StrandReader(const std::filesystem::path& path, const StrandReadOptions& options)
-    : raw_(open_raw_strands(path, options)), width_(stated_width(*raw_, options)) {}
+StrandReader::StrandReader(const std::filesystem::path& path, const StrandReadOptions& options,
+                           const M44f& to_scene)
+    : raw_(open_raw_strands(path, options)), to_scene_(to_scene), width_(stated_width(*raw_, options)) {
+  if (raw_->file_width > 0) width_ *= length_factor(to_scene_);
+}
 StrandReader::~StrandReader() = default;
 StrandReader::StrandReader(StrandReader&&) noexcept = default;
 
@@ -40,6 +44,19 @@ size_t StrandReader::points_in_file() const { return raw_->first_point(raw_->str
 CurveBasis StrandReader::basis() const { return raw_->basis; }
 std::span<const StrandAttribute> StrandReader::attributes() const { return raw_->attributes; }
 
+void StrandReader::append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const {
+  const size_t first = arrays.points.size();
+  raw_->append(begin, end, windows, arrays);
+  if (to_scene_ == M44f()) return;
+  const float radius_factor = length_factor(to_scene_);
+  for (size_t i = first; i + 3 < arrays.points.size(); i += 4) {
+    float* p = &arrays.points[i];
+    const V3f point = V3f(p[0], p[1], p[2]) * to_scene_;
+    std::copy_n(&point.x, 3, p);
+    p[3] *= radius_factor;
+  }
+}
+
 /// An unstated width depends on the size of all strands together.
 void StrandReader::find_width(const Job& job) {
   if (width_ > 0) return;
@@ -47,7 +64,7 @@ void StrandReader::find_width(const Job& job) {
   FileWindows windows(raw_->file);
   for_each_range(*raw_, job, [&](size_t begin, size_t end) {
     StrandArrays arrays = raw_->empty();
-    raw_->append(begin, end, windows, arrays);
+    append(begin, end, windows, arrays);
     box.extendBy(usable_box(arrays));
   });
   width_ = assumed_width(box);
@@ -78,7 +95,7 @@ void StrandReader::for_each_strands(const Job& job,
   FileWindows windows(raw_->file);
   for_each_range(*raw_, job, [&](size_t begin, size_t end) {
     StrandArrays arrays = raw_->empty();
-    raw_->append(begin, end, windows, arrays);
+    append(begin, end, windows, arrays);
     visit(finish_strands(std::move(arrays), *raw_, width_));
   });
 }
@@ -110,7 +127,7 @@ Strands StrandReader::read(std::span<const uint32_t> strands) const {
   for (size_t i = 0; i < strands.size();) {
     size_t end = i + 1;
     while (end < strands.size() && place(strands[end]) == place(strands[end - 1]) + 1) ++end;
-    raw_->append(place(strands[i]), place(strands[end - 1]) + 1, windows, arrays);
+    append(place(strands[i]), place(strands[end - 1]) + 1, windows, arrays);
     i = end;
   }
   StrandFile read = finish_strands(std::move(arrays), *raw_, width_);

@@ -11,6 +11,7 @@
 
 namespace pelage {
 
+class FileWindows;
 class RawStrands;
 
 /// A strand file that stays on disk. The reader reads and repairs strands each time they are requested. A
@@ -22,8 +23,10 @@ class StrandReader {
  public:
   using Visit = std::function<void(size_t first, const Strands& strands)>;
 
-  /// Opens the file and checks its header against its length. Throws Error (kInput).
-  StrandReader(const std::filesystem::path& path, const StrandReadOptions& options);
+  /// Opens the file and checks its header against its length. Points and widths of the file are transformed
+  /// by `to_scene` (row vectors: p * M) when they are read. Throws Error (kInput).
+  StrandReader(const std::filesystem::path& path, const StrandReadOptions& options,
+               const M44f& to_scene = M44f());
   ~StrandReader();
   StrandReader(StrandReader&&) noexcept;
 
@@ -62,9 +65,11 @@ class StrandReader {
   void for_each_strands(const Job& job, const std::function<void(const StrandFile&)>& visit) const;
   [[noreturn]] void fail_changed() const;
   void find_width(const Job& job);
+  void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const;
   void note(const Strands& strands);
 
   std::unique_ptr<const RawStrands> raw_;
+  M44f to_scene_;
   float width_ = 0;  // width of strands that have none; 0 until find_width()
   size_t count_ = 0;
   uint32_t common_points_ = 0, max_points_ = 0;

@@ -50,6 +50,10 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
   describe(params.strands_file, "strands_file", strands);
   describe(params.basis, "basis", strands);
   describe(params.default_width, "default_width", strands);
+  if (params.transform) {
+    const M44f matrix = params.to_rest();
+    strands.push_back({"transform", to_string(content_hash(std::as_bytes(std::span(&matrix[0][0], 16))))});
+  }
   // `rest` is null for strands that follow no skin.
   describe(params.attach, "attach", strands);
   for (const auto& op : stack.operators()) {

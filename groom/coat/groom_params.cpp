@@ -106,6 +106,9 @@ const Schema<GroomParams>& GroomParams::schema() {
                    "strand follows the point of the skin nearest to its root and keeps its distance from "
                    "that point; see `attach`",
            .default_text = "none"});
+    s.key("transform", &GroomParams::transform,
+          {.help = "From the coordinates of strands_file to the rest space of the skin",
+           .default_text = "as in the file"});
     s.key("attach", &GroomParams::attach,
           {.help = "Whether the strands of strands_file follow the skin. `skin`: they follow it. `none`: "
                    "they keep their positions from the file and move only with the character. `auto`: they "

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/value_readers.h"
+#include "geom/io/file_transform.h"
 #include "geom/strands.h"
 #include "groom/coat/attachment.h"
 #include "groom/follicles/follicles.h"
@@ -27,11 +28,12 @@ struct GroomParams {
   /// As written; expand_presets() has put the keys that the name stands for in its place (world/presets.h).
   NameReference preset;
   float preset_density = 1;
-  NameReference skin;                     ///< name of a skin; empty for strands of a file without a skin
-  AssetPath strands_file;                 ///< file with the strands; empty: strands grow from follicles
-  std::optional<CurveBasis> basis;        ///< for strands_file: curve basis, if the file does not state it
-  std::optional<float> default_width;     ///< for strands_file: width, if the file has no widths
-  Attachment attach = Attachment::kAuto;  ///< for strands_file: whether its strands follow the skin
+  NameReference skin;                  ///< name of a skin; empty for strands of a file without a skin
+  AssetPath strands_file;              ///< file with the strands; empty: strands grow from follicles
+  std::optional<CurveBasis> basis;     ///< for strands_file: curve basis, if the file does not state it
+  std::optional<float> default_width;  ///< for strands_file: width, if the file has no widths
+  std::optional<FileTransformParams> transform;  ///< for strands_file: from its space to the rest space
+  Attachment attach = Attachment::kAuto;         ///< for strands_file: whether its strands follow the skin
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
   /// Relative if `strands` is given; otherwise, number of strands per square scene unit.
@@ -43,6 +45,8 @@ struct GroomParams {
   std::optional<GroomCacheParams> cache;
 
   static constexpr int kMaxLeafStrands = 8000;  ///< default of leaf_strands
+  /// From the space of strands_file to the rest space of the skin.
+  M44f to_rest() const { return transform ? transform->matrix() : M44f(); }
   int leaf_size() const { return leaf_strands.value_or(kMaxLeafStrands); }
   static const Schema<GroomParams>& schema();
 };

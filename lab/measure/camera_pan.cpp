@@ -30,9 +30,11 @@ std::vector<std::pair<std::string, std::string>> camera_pan(const SceneDescripti
   const CameraParams& camera = scene.camera;
   require_placed(camera);
   const V3d from(camera.position.at(first)), to(camera.look_at.at(first));
-  const double height = camera.orthographic ? double{camera.orthographic->at(first)}
-                                            : 2 * (to - from).length() *
-                                                  std::tan(camera.fov.at(first) * std::numbers::pi / 360);
+  const float aspect = static_cast<float>(scene.image.width) / static_cast<float>(scene.image.height);
+  const double height =
+      camera.is_orthographic()
+          ? double{camera.height_at(first, aspect)}
+          : 2 * (to - from).length() * std::tan(camera.fov_at(first, aspect) * std::numbers::pi / 360);
   const V3d step = (to - from).cross(V3d(camera.up.at(first))).normalized() * (height / scene.image.height);
   const auto keys = [&](const V3d& start) {
     const V3d end = start + step * (last - first);

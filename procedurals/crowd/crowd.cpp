@@ -116,8 +116,18 @@ M44f scale_of(const CrowdMember& member) {
 
 M44f placement_of(const CrowdMember& member) {
   const float s = std::sin(member.heading), c = std::cos(member.heading);
-  const V3f& p = member.position;
-  return {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, p.x, p.y, p.z, 1};
+  const V3f &p = member.position, &up = member.up;
+  const M44f level(c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, p.x, p.y, p.z, 1);
+  if (up == V3f(0, 1, 0)) return level;
+  // Rotates y to `up`, which is above the ground: 1 + up.y > 0.
+  const float k = 1 / (1 + up.y);
+  const M44f tilt(1 - k * up.x * up.x, -up.x, -k * up.x * up.z, 0,  //
+                  up.x, up.y, up.z, 0,                              //
+                  -k * up.x * up.z, -up.z, 1 - k * up.z * up.z, 0,  //
+                  0, 0, 0, 1);
+  M44f turned = level * tilt;
+  std::copy_n(&p.x, 3, turned[3]);
+  return turned;
 }
 
 }  // namespace pelage

@@ -47,7 +47,9 @@ struct CrowdParams {
   int64_t count = 0;              ///< number of animals
   int64_t seed = 0;
   AreaParams area;
-  float spacing = 0;  ///< min distance between footprints, scene units
+  float spacing = 0;     ///< min distance between footprints, scene units
+  NameReference ground;  ///< character whose skins the animals stand on; empty: the level ground of `area`
+  float tilt = 0;        ///< 0: animals stand upright on the ground, 1: along its normal
   CrowdHeadingParams heading;
   CrowdPhaseParams phase;
   CrowdScaleParams scale;
@@ -60,6 +62,7 @@ struct CrowdParams {
 struct CrowdMember {
   size_t prototype = 0;  ///< index into CrowdParams::of
   V3f position{0};
+  V3f up{0, 1, 0};         ///< unit, y of the prototype after the rotation to its heading
   float heading = 0;       ///< radians about y; 0 faces +z
   V3f scale{1};            ///< factors on the size along the axes of the prototype
   float frame_offset = 0;  ///< frames, added to the frame offset of the prototype
@@ -87,7 +90,8 @@ PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& foo
 /// Returns the matrix that scales the prototype to the size of the animal (row vectors: p * M). Apply
 /// scale_of(), then the prototype's own transform, then placement_of().
 M44f scale_of(const CrowdMember& member);
-/// Returns the matrix that rotates the animal about y to its heading, then translates it to its position.
+/// Returns the matrix that rotates the animal about y to its heading, then y to CrowdMember::up by the
+/// smallest rotation, then translates it to its position.
 M44f placement_of(const CrowdMember& member);
 
 }  // namespace pelage

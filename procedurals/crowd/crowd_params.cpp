@@ -144,6 +144,15 @@ const Schema<CrowdParams>& CrowdParams::schema() {
           {.unit = "scene units",
            .help = "Minimum distance between footprints, or between origins if characters have no footprint",
            .min = 0});
+    s.key(
+        "ground", &CrowdParams::ground,
+        {.help = "Character on whose skins the animals stand, instead of level ground: each is moved along y "
+                 "to the highest point. It must neither move nor have poses",
+         .default_text = "level"});
+    s.key("tilt", &CrowdParams::tilt,
+          {.help = "How far animals lean with the slope of `ground`: 0 upright, 1 along its normal",
+           .min = 0,
+           .max = 1});
     s.key("heading", &CrowdParams::heading,
           {.help = "Direction in which the animals face", .default_text = "any direction"});
     s.key("phase", &CrowdParams::phase,

@@ -11,7 +11,33 @@
 
 namespace pelage {
 
-Camera::Pose Camera::make_pose(const CameraParams& params, double frame, const V3f& origin) {
+bool CameraParams::is_orthographic() const {
+  return orthographic || projection == CameraProjection::kOrthographic;
+}
+
+float CameraParams::fov_at(double time, float aspect) const {
+  if (!focal_length) return fov.at(time);
+  return std::atan(sensor / (2 * aspect * focal_length->at(time))) * 360 / kPi;
+}
+
+float CameraParams::height_at(double time, float aspect) const {
+  if (orthographic) return orthographic->at(time);
+  const float distance = (look_at.at(time) - position.at(time)).length();
+  return 2 * distance * std::tan(fov_at(time, aspect) * kPi / 360);
+}
+
+std::optional<LensParams> CameraParams::lens_at(double time, float aspect) const {
+  if (is_orthographic()) return {};
+  if (!f_stop) return lens;
+  const float sensor_height = sensor / aspect;
+  const float focal_mm =
+      focal_length ? focal_length->at(time) : sensor_height / (2 * std::tan(fov.at(time) * kPi / 360));
+  const float distance =
+      focus_distance ? focus_distance->at(time) : (look_at.at(time) - position.at(time)).length();
+  return LensParams{*f_stop, focal_mm * 0.001f / meters_per_unit, distance};
+}
+
+Camera::Pose Camera::make_pose(const CameraParams& params, double frame, float aspect, const V3f& origin) {
   Pose pose;
   pose.position = relative_to(params.position, origin).at(frame);
   const V3f view = relative_to(params.look_at, origin).at(frame) - pose.position;
@@ -27,8 +53,8 @@ Camera::Pose Camera::make_pose(const CameraParams& params, double frame, const V
   pose.forward = view.normalized();
   pose.right = right.normalized();
   pose.up = pose.right.cross(pose.forward);
-  pose.half_height = params.orthographic ? 0.5f * params.orthographic->at(frame)
-                                         : std::tan(params.fov.at(frame) * kPi / 360);
+  pose.half_height = params.is_orthographic() ? 0.5f * params.height_at(frame, aspect)
+                                              : std::tan(params.fov_at(frame, aspect) * kPi / 360);
   return pose;
 }
 
@@ -43,24 +69,28 @@ Camera::Pose Camera::blend(const Pose& a, const Pose& b, float t) {
 }
 
 Camera::Camera(const CameraParams& params, double frame, int width, int height, const V3f& origin)
-    : frame_(make_pose(params, frame, origin)),
-      next_frame_(make_pose(params, frame + 1, origin)),
-      origin_(origin),
+    : origin_(origin),
       shutter_(params.shutter),
+      shift_(params.shift),
+      shutter_curve_(params.shutter_curve),
       width_(width),
       height_(height),
-      parallel_(params.orthographic.has_value()) {
+      parallel_(params.is_orthographic()) {
+  frame_ = make_pose(params, frame, aspect(), origin);
+  next_frame_ = make_pose(params, frame + 1, aspect(), origin);
+  const Keyed<float>& zoom = params.orthographic   ? *params.orthographic
+                             : params.focal_length ? *params.focal_length
+                                                   : params.fov;
   const bool still = params.position.is_constant() && params.look_at.is_constant() &&
-                     params.up.is_constant() &&
-                     (parallel_ ? params.orthographic->is_constant() : params.fov.is_constant());
+                     params.up.is_constant() && zoom.is_constant();
   const int count = still || shutter_frames() <= 0 ? 1 : std::max(params.motion_keys, 2);
   for (int k = 0; k < count; ++k) {
     const double at = count == 1 ? shutter_.x : shutter_.x + shutter_frames() * k / (count - 1.0);
-    keys_.push_back(make_pose(params, frame + at, origin));
+    keys_.push_back(make_pose(params, frame + at, aspect(), origin));
   }
-  if (params.lens && !parallel_) {
-    lens_radius_ = params.lens->focal_length / (2 * params.lens->f_stop);
-    focus_distance_ = params.lens->focus_distance;
+  if (const std::optional<LensParams> lens = params.lens_at(frame, aspect())) {
+    lens_radius_ = lens->focal_length / (2 * lens->f_stop);
+    focus_distance_ = lens->focus_distance;
   }
 }
 
@@ -74,8 +104,8 @@ Camera::Pose Camera::pose_at(float time) const {
 CameraRay Camera::ray(float x, float y, const V2f& lens, float time) const {
   const Pose pose = pose_at(time);
   const float scale = 2 * pose.half_height / static_cast<float>(height_);
-  const float sx = (x - 0.5f * static_cast<float>(width_)) * scale;
-  const float sy = (0.5f * static_cast<float>(height_) - y) * scale;
+  const float sx = (x - axis_x()) * scale;
+  const float sy = (axis_y() - y) * scale;
   if (parallel_) return {pose.position + sx * pose.right + sy * pose.up, pose.forward, time};
   const V3f through = pose.forward + sx * pose.right + sy * pose.up;  // unit length along the axis
   if (lens_radius_ == 0) return {pose.position, through.normalized(), time};
@@ -89,8 +119,16 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
   const float depth = local.dot(pose.forward);
   if (!(depth > 0)) return std::nullopt;
   const float scale = pixels_at(pose, depth);
-  return V3f(0.5f * static_cast<float>(width_) + scale * local.dot(pose.right),
-             0.5f * static_cast<float>(height_) - scale * local.dot(pose.up), depth);
+  return V3f(axis_x() + scale * local.dot(pose.right), axis_y() - scale * local.dot(pose.up), depth);
+}
+
+V2f Camera::picture_position(const V3f& origin, const V3f& direction, float time) const {
+  const Pose pose = pose_at(time);
+  const float depth = has_lens() ? focus_distance_ : 1;  // where all rays of a raster position meet
+  const V3f local = origin - pose.position + direction * (depth / direction.dot(pose.forward));
+  const float scale = pixels_at(pose, depth);
+  return V2f((axis_x() + scale * local.dot(pose.right)) / static_cast<float>(width_),
+             (axis_y() - scale * local.dot(pose.up)) / static_cast<float>(height_));
 }
 
 float Camera::projected_length(std::span<const float> points, float time) const {
@@ -128,12 +166,13 @@ bool Camera::may_see(const Box3f& box) const {
       const float depth = local.dot(pose.forward), x = local.dot(pose.right), y = local.dot(pose.up);
       const float blur = has_lens() ? lens_radius_ * std::abs(1 - depth / focus_distance_) : 0;
       const float half = (parallel_ ? 1 : depth) * pose.half_height;
+      const float right = 2 * shift_.x * half * aspect, up = 2 * shift_.y * half;  // of the centre
       const float half_height = half + blur, half_width = half * aspect + blur;
       outside[0] += depth <= 0;
-      outside[1] += x < -half_width;
-      outside[2] += x > half_width;
-      outside[3] += y < -half_height;
-      outside[4] += y > half_height;
+      outside[1] += x < right - half_width;
+      outside[2] += x > right + half_width;
+      outside[3] += y < up - half_height;
+      outside[4] += y > up + half_height;
     }
   }
   return *std::max_element(outside, outside + 5) < 8 * keys_.size();
@@ -183,12 +222,13 @@ M44f Camera::world_to_ndc() const {
   const float aspect = this->aspect();
   const float y = 0.5f / frame_.half_height;
   const float x = y / aspect;
+  const float axis_x = 0.5f - shift_.x, axis_y = 0.5f + shift_.y;  // of the view axis
   if (parallel_)  // (x, y, z, 1) -> (x' + 1/2, 1/2 - y', z, 1)
-    return world_to_camera() * M44f(x, 0, 0, 0, 0, -y, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
+    return world_to_camera() * M44f(x, 0, 0, 0, 0, -y, 0, 0, 0, 0, 1, 0, axis_x, axis_y, 0, 1);
   // camera (x, y, z, 1) -> (x' + z/2, z/2 - y', z, z)
-  const M44f projection(x, 0, 0, 0,        //
-                        0, -y, 0, 0,       //
-                        0.5f, 0.5f, 1, 1,  //
+  const M44f projection(x, 0, 0, 0,            //
+                        0, -y, 0, 0,           //
+                        axis_x, axis_y, 1, 1,  //
                         0, 0, 0, 0);
   return world_to_camera() * projection;
 }

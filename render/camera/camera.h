@@ -11,6 +11,7 @@
 #include "base/vector.h"
 #include "geom/view.h"
 #include "lod/lod_view.h"
+#include "render/camera/shutter_curve.h"
 
 namespace pelage {
 
@@ -21,6 +22,12 @@ struct LensParams {
   static const Schema<LensParams>& schema();
 };
 
+enum class CameraProjection { kPerspective, kOrthographic };
+template <>
+struct EnumNames<CameraProjection> {
+  static constexpr const char* names[] = {"perspective", "orthographic"};
+};
+
 struct CameraParams {
   /// What the picture shall show whole: a skin, a character or `all`. Position and target then give only the
   /// direction of the view, and world/camera_frame.h places the camera. Empty: they are used as they are.
@@ -28,11 +35,30 @@ struct CameraParams {
   Keyed<V3f> position{V3f(0, 0, 10)};
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};
-  Keyed<float> fov{40.0f};                   ///< vertical, degrees; unused if orthographic
-  std::optional<Keyed<float>> orthographic;  ///< height of the picture in scene units; empty: perspective
-  V2f shutter{0, 0};                         ///< opening and closing time, in frames relative to the frame
+  Keyed<float> fov{40.0f};                     ///< vertical, degrees; unused if orthographic
+  std::optional<Keyed<float>> orthographic;    ///< height of the picture in scene units; empty: perspective
+  std::optional<CameraProjection> projection;  ///< empty: orthographic if the key `orthographic` is given
+  std::optional<Keyed<float>> focal_length;    ///< mm; with `sensor`, replaces `fov`
+  float sensor = 36;                           ///< width of what the picture shows in the image plane, mm
+  V2f shift{0, 0};              ///< of the lens, in widths and heights of the picture: right and up
+  Keyed<float> exposure{0.0f};  ///< stops; world/compose.cpp applies it to the lights
+  std::optional<float> f_stop;  ///< with the focal length in mm, replaces `lens`
+  std::optional<Keyed<float>> focus_distance;  ///< of f_stop, scene units; empty: the distance of look_at
+  NameReference focus_on;  ///< skin or character in focus; world/camera_frame.h sets the distance
+  V2f shutter{0, 0};       ///< opening and closing time, in frames relative to the frame
+  ShutterCurve shutter_curve;
   int motion_keys = 2;
   std::optional<LensParams> lens;
+  float meters_per_unit = 0.01f;  ///< no key of the block: load_scene() copies it from `units`
+
+  bool is_orthographic() const;
+  /// Returns the vertical field of view in degrees. `time`: in frames. `aspect`: width of the picture divided
+  /// by its height.
+  float fov_at(double time, float aspect) const;
+  /// Returns the height of the picture in scene units. The camera must be orthographic.
+  float height_at(double time, float aspect) const;
+  /// Returns the lens, from `lens` or from `f_stop`. Empty: a pinhole camera, or an orthographic one.
+  std::optional<LensParams> lens_at(double time, float aspect) const;
   static const Schema<CameraParams>& schema();
 };
 
@@ -45,7 +71,8 @@ struct CameraRay {
 /// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Between
 /// `motion_keys` evenly spaced times of the shutter, the position, the axes and the tangent of half the field
 /// of view are interpolated linearly, like geometry; the axes are then orthonormalised. The lines of sight of
-/// an orthographic camera are parallel. They start in the plane of the camera; a lens has no effect.
+/// an orthographic camera are parallel. They start in the plane of the camera; a lens has no effect. A shift
+/// moves the picture within the image plane: the axes stay, and the view axis is no longer in its centre.
 ///
 /// World points are relative to the origin of the constructor; the matrices of the header are not.
 ///
@@ -60,9 +87,15 @@ class Camera {
   /// Returns the ray through raster position (x, y) and lens position `lens` in [0, 1)^2 at shutter time
   /// `time` in [0, 1].
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
+  /// Returns the shutter time of a random number `u` in [0, 1): distributed as the shutter lets light
+  /// through.
+  float sampled_time(float u) const { return shutter_curve_.time(u); }
   /// Projects a world point at a shutter time. Returns the raster position as x and y, and the depth along
   /// the view axis as z. Empty if the point is behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
+  /// Returns where in the picture a ray from ray() is, through any point of the lens: (0, 0) at the upper
+  /// left corner, (1, 1) at the lower right corner.
+  V2f picture_position(const V3f& origin, const V3f& direction, float time) const;
   /// Returns the length in the picture, in pixels, of a line through world points at a shutter time.
   /// `points`: (x, y, z, radius) of each point. Parts of the line with an end behind the camera do not count.
   float projected_length(std::span<const float> points, float time) const;
@@ -97,6 +130,11 @@ class Camera {
   M44f world_to_ndc() const;
   /// Value of the EXR attribute screenWindowWidth: width of what the picture shows at distance 1.
   float screen_window_width() const { return 2 * frame_.half_height * aspect(); }
+  /// Value of the EXR attribute screenWindowCenter: position of the centre of the picture at distance 1,
+  /// relative to the view axis, right and up.
+  V2f screen_window_center() const {
+    return V2f(screen_window_width() * shift_.x, 2 * frame_.half_height * shift_.y);
+  }
 
  private:
   struct Pose {
@@ -105,7 +143,10 @@ class Camera {
     float half_height = 1;
   };
   float aspect() const { return static_cast<float>(width_) / static_cast<float>(height_); }
-  static Pose make_pose(const CameraParams& params, double frame, const V3f& origin);
+  static Pose make_pose(const CameraParams& params, double frame, float aspect, const V3f& origin);
+  /// Raster position of the view axis.
+  float axis_x() const { return (0.5f - shift_.x) * static_cast<float>(width_); }
+  float axis_y() const { return (0.5f + shift_.y) * static_cast<float>(height_); }
   static Pose blend(const Pose& a, const Pose& b, float t);
   Pose pose_at(float time) const;
   std::optional<V3f> project(const Pose& pose, const V3f& world) const;
@@ -117,7 +158,8 @@ class Camera {
   std::vector<Pose> keys_;  // over the shutter; one key for a static camera
   Pose frame_, next_frame_;
   V3f origin_;
-  V2f shutter_;
+  V2f shutter_, shift_;
+  ShutterCurve shutter_curve_;
   int width_, height_;
   bool parallel_ = false;  // orthographic
   float lens_radius_ = 0, focus_distance_ = 0;

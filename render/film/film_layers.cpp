@@ -43,6 +43,12 @@ const Schema<ImageParams>& ImageParams::schema() {
           {.help = "Adds the layer `lod`: in each pixel, the fraction of strands that render.lod removed "
                    "from the front-most coat; 0 where a skin is front-most. `tools/exr_to_png IN.exr OUT.png "
                    "lod` shows it in false colours"});
+    s.key(
+        "background", &ImageParams::background,
+        {.help = "Picture behind everything, stretched over the whole picture, in place of the environments "
+                 "that the camera would see. It illuminates nothing, is not exposed, and has the layer "
+                 "`background`. Alpha stays 0 where only the background is seen",
+         .default_text = "visible lights"});
     return s;
   }();
   return table;

@@ -34,6 +34,7 @@ struct ImageParams {
   bool event_layers = false;                    ///< direct and indirect part of each, as two more layers
   bool noise_layers = false;
   bool lod_layer = false;
+  AssetPath background;  ///< picture behind everything (class PlateLight); empty: visible lights
   static const Schema<ImageParams>& schema();
 };
 

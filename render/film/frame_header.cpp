@@ -8,6 +8,7 @@ ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
   attributes["worldToCamera"] = camera.world_to_camera();
   attributes["worldToNDC"] = camera.world_to_ndc();
   attributes["screenWindowWidth"] = camera.screen_window_width();
+  attributes["screenWindowCenter"] = camera.screen_window_center();
   attributes["framesPerSecond"] = static_cast<float>(header.frames_per_second);
   attributes["expTime"] =
       static_cast<float>(double{header.shutter.y - header.shutter.x} / header.frames_per_second);

@@ -29,7 +29,7 @@ CameraSample CameraSamples::sample(int x, int y, uint32_t sample, SampleStream& 
   }
   if (scene_.camera.shutter_frames() > 0) {
     stream.seek(static_cast<uint32_t>(SampleDimension::kTime));
-    time = stream.next1d();
+    time = scene_.camera.sampled_time(stream.next1d());
   }
   const CameraRay from = scene_.camera.ray(static_cast<float>(x) + 0.5f + result.offset.x,
                                            static_cast<float>(y) + 0.5f + result.offset.y, lens, time);

@@ -47,7 +47,7 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
                         TileSamples& tile) const {
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
+  seen_lights(scene_.lights, from.ray.origin, from.ray.direction, from.ray.time, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 const auto source = static_cast<uint32_t>(scene_.source(light));
                 auto& seen = tile.seen_lights;

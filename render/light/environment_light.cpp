@@ -51,6 +51,10 @@ std::optional<LightHit> EnvironmentLight::intersect(const V3f&, const V3f& direc
   return LightHit{kInfinity, map_ ? map_->radiance(map_->texel_of(to_map(direction))) : radiance_};
 }
 
+std::optional<LightHit> EnvironmentLight::seen(const V3f&, const V3f& direction, float) const {
+  return LightHit{kInfinity, map_ ? map_->interpolated(to_map(direction)) : radiance_};
+}
+
 float EnvironmentLight::importance(const V3f&) const { return importance_; }
 
 V3f EnvironmentLight::to_map(const V3f& world) const {

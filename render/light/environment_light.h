@@ -13,7 +13,7 @@ namespace pelage {
 
 /// Light that arrives from infinitely far away in every direction. Its radiance is constant, or comes from a
 /// lat-long image, which is looked up without interpolation so that the sun casts crisp shadows (see
-/// EnvironmentMap).
+/// EnvironmentMap). Only the camera sees it interpolated.
 class EnvironmentLight final : public Light {
  public:
   /// Makes a light of constant radiance.
@@ -31,6 +31,7 @@ class EnvironmentLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   float pdf_of_hit(const V3f& from, const V3f& direction, const LightHit& hit) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
+  std::optional<LightHit> seen(const V3f& from, const V3f& direction, float time) const override;
   float importance(const V3f& from) const override;
   std::optional<LightBall> ball() const override { return std::nullopt; }
 

@@ -182,14 +182,29 @@ EnvironmentMap::Sample EnvironmentMap::sample(const V2f& u) const {
           texel};
 }
 
-EnvironmentMap::Texel EnvironmentMap::texel_of(const V3f& direction) const {
+V2f EnvironmentMap::place_of(const V3f& direction) const {
   const float turn = std::atan2(direction.x, -direction.z) / (2.0f * kPi) + 0.5f;
   const float sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
   const float polar = std::atan2(sine, direction.y) / kPi;
-  const auto cell = [](float place, int count) {
-    return std::clamp(static_cast<int>(place * static_cast<float>(count)), 0, count - 1);
+  return {turn * static_cast<float>(image_->width()), polar * static_cast<float>(image_->height())};
+}
+
+EnvironmentMap::Texel EnvironmentMap::texel_of(const V3f& direction) const {
+  const V2f place = place_of(direction);
+  return {std::clamp(static_cast<int>(place.x), 0, image_->width() - 1),
+          std::clamp(static_cast<int>(place.y), 0, image_->height() - 1)};
+}
+
+Rgb EnvironmentMap::interpolated(const V3f& direction) const {
+  const V2f place = place_of(direction) - V2f(0.5f);
+  const int width = image_->width(), left = static_cast<int>(std::floor(place.x));
+  const int top = static_cast<int>(std::floor(place.y));
+  const float s = place.x - static_cast<float>(left), t = place.y - static_cast<float>(top);
+  const auto row = [&](int y) {
+    const int inside = std::clamp(y, 0, image_->height() - 1);
+    return radiance({(left + width) % width, inside}) * (1 - s) + radiance({(left + 1) % width, inside}) * s;
   };
-  return {cell(turn, image_->width()), cell(polar, image_->height())};
+  return row(top) * (1 - t) + row(top + 1) * t;
 }
 
 }  // namespace pelage

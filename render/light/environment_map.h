@@ -44,6 +44,9 @@ class EnvironmentMap {
   /// Returns the texel that contains a direction.
   Texel texel_of(const V3f& direction) const;
   Rgb radiance(Texel texel) const { return shown(image_->texel(texel.x, texel.y)); }
+  /// Returns the radiance in a direction, interpolated linearly between the middles of texels: for the
+  /// camera, to which large texels would be blocks.
+  Rgb interpolated(const V3f& direction) const;
   /// Returns the density of sample(), per solid angle, in a texel with this radiance.
   float pdf(const Rgb& radiance) const { return luminance(radiance) * inverse_power_; }
   float pdf(Texel texel) const { return pdf(radiance(texel)); }
@@ -62,6 +65,8 @@ class EnvironmentMap {
     Texel texel;
     V2f rest;
   };
+  /// Position of a direction in the image: columns and rows, with a fraction.
+  V2f place_of(const V3f& direction) const;
   static int cell_side(int width, int height, int64_t max_cells);
   static size_t bytes(int width, int height, int cell);
   Rgb shown(const Rgb& stored) const;

@@ -55,6 +55,10 @@ class Light {
   /// Intersects the light with an infinite ray. `direction`: unit. Empty when no light of this emitter
   /// arrives at `from` along the ray.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
+  /// Intersects the light with a camera ray at a shutter time. Lights that show an image filter it here.
+  virtual std::optional<LightHit> seen(const V3f& from, const V3f& direction, float /*time*/) const {
+    return intersect(from, direction);
+  }
   /// Returns the weight for selecting among lights: solid angle * mean luminance of the light, as seen from
   /// `from` ["Rendering Fur in Life of Pi", stochastic light selection].
   virtual float importance(const V3f& from) const = 0;

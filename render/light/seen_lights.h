@@ -8,13 +8,13 @@
 namespace pelage {
 
 /// Calls `found(light, radiance)` for each visible light that a camera ray hits at `distance` or nearer.
-/// `light`: index in `lights`.
+/// `light`: index in `lights`. `time`: shutter time.
 template <class Found>
-void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction, float distance,
+void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction, float time, float distance,
                  const Found& found) {
   lights.on_ray(origin, direction, distance, [&](size_t i) {
     if (!lights.light(i).visible()) return;
-    const auto hit = lights.light(i).intersect(origin, direction);
+    const auto hit = lights.light(i).seen(origin, direction, time);
     if (hit && !(hit->distance > distance)) found(i, hit->radiance);
   });
 }

@@ -72,7 +72,7 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
   path.time = from.ray.time;
   path.random = from.ray.random;
   path.hit = scratch.closest(RayKind::kCamera, accel_, path.ray);
-  seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.hit.distance,
+  seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time, path.hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 scratch.sample.radiance += radiance;
                 if (!layers_.empty()) scratch.by_layer[layers_.emitted(light)] += radiance;

@@ -53,6 +53,7 @@ class PictureBlocks {
     for (const double time : times) {
       frames_.push_back(frame + time);
       const Window window = window_of(camera);
+      if (poses_.empty()) shift_ = window.shift;
       const V3d middle = camera.perspective ? V3d(0) : V3d(window.x, window.y, 0);
       poses_.push_back(camera_pose(camera.to_camera.at(time), middle));
       const double half = std::tan(double(camera.fov) * std::numbers::pi / 360) * window.half_height;
@@ -71,6 +72,12 @@ class PictureBlocks {
     add_keyed(block, "up", [&](size_t i) { return rib_vector(at_, poses_[i].up); });
     add_keyed(block, first_.perspective ? "fov" : "orthographic",
               [&](size_t i) { return rib_number(at_, sizes_[i]); });
+    if (first_.perspective && shift_ != V2f(0))
+      add_entry(block, "shift", Value::list(at_, {rib_number(at_, shift_.x), rib_number(at_, shift_.y)}));
+    if (first_.gain != 1) {
+      const double stops = std::clamp(std::log2(double(first_.gain)), -64.0, 64.0);
+      add_entry(block, "exposure", rib_number(at_, stops));
+    }
     const V2f shutter = first_.shutter.value_or(V2f(0));
     add_entry(block, "shutter", Value::list(at_, {rib_number(at_, shutter.x), rib_number(at_, shutter.y)}));
     if (keys_ > 2)
@@ -125,18 +132,22 @@ class PictureBlocks {
   /// The middle of the screen window and half its height.
   struct Window {
     double x = 0, y = 0, half_height = 1;
+    V2f shift{0, 0};  // x and y in widths and heights of the window
   };
 
   Window window_of(const RibCamera& camera) {
     const double aspect = camera.frame_aspect.value_or(
         static_cast<float>(width_) / static_cast<float>(height_) * camera.pixel_aspect.value_or(1.0f));
-    Window window{0, 0, aspect >= 1 ? 1 : 1 / aspect};
+    Window window{0, 0, aspect >= 1 ? 1 : 1 / aspect, V2f(0)};
     if (camera.screen_window) {
       const auto& [left, right, bottom, top] = *camera.screen_window;
-      window = {0.5 * (double(left) + right), 0.5 * (double(bottom) + top), 0.5 * (double(top) - bottom)};
+      window = {0.5 * (double(left) + right), 0.5 * (double(bottom) + top), 0.5 * (double(top) - bottom),
+                V2f(0)};
       const double size = double(right) - left + top - bottom;
-      if (camera.perspective && 2 * (std::abs(window.x) + std::abs(window.y)) > 1e-4 * size)
-        warn("the middle of ScreenWindow is not (0, 0), which is not supported; the picture is moved");
+      if (2 * (std::abs(window.x) + std::abs(window.y)) > 1e-4 * size) {
+        window.shift = V2f(static_cast<float>(window.x / (double(right) - left)),
+                           static_cast<float>(window.y / (double(top) - bottom)));
+      }
     }
     if (std::abs(aspect * height_ / width_ - 1) > 1e-4) warn("pixels that are not square are not supported");
     return window;
@@ -154,6 +165,7 @@ class PictureBlocks {
   size_t keys_ = 0;
   std::vector<double> frames_;
   std::vector<Pose> poses_;
+  V2f shift_{0, 0};            // of the first frame
   std::vector<double> sizes_;  // of the picture: the field of view, or the height of an orthographic one
   RibCamera first_;
 };

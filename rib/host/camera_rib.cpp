@@ -2,6 +2,7 @@
 #include "rib/host/camera_rib.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "world/frame_coats.h"
 
@@ -59,16 +60,21 @@ void write_camera(RibWriter& rib, const SceneDescription& scene, const CameraPar
   rib.request("PixelSamples").number(grid.x).number(grid.y);
   rib.request("Shutter").number(camera.shutter.x).number(camera.shutter.y);
   write_clipping(rib, camera.position.at(frame), content);
-  if (camera.lens && !camera.orthographic) {
-    rib.request("DepthOfField").number(camera.lens->f_stop).number(camera.lens->focal_length);
-    rib.number(camera.lens->focus_distance);
+  if (const float stops = camera.exposure.at(frame); stops != 0)
+    rib.request("Exposure").number(std::exp2(stops)).number(1);
+  if (const std::optional<LensParams> lens = camera.lens_at(frame, aspect)) {
+    rib.request("DepthOfField").number(lens->f_stop).number(lens->focal_length);
+    rib.number(lens->focus_distance);
   }
-  const float half = camera.orthographic ? 0.5f * camera.orthographic->at(frame) : 1;
-  rib.request("ScreenWindow").number(-half * aspect).number(half * aspect).number(-half).number(half);
-  if (camera.orthographic) {
+  const float half = camera.is_orthographic() ? 0.5f * camera.height_at(frame, aspect) : 1;
+  const float right = 2 * half * aspect * camera.shift.x, up = 2 * half * camera.shift.y;
+  rib.request("ScreenWindow").number(right - half * aspect).number(right + half * aspect);
+  rib.number(up - half).number(up + half);
+  if (camera.is_orthographic()) {
     rib.request("Projection").text("orthographic");
   } else {
-    rib.request("Projection").text("perspective").parameter("float fov").numbers({camera.fov.at(frame)});
+    rib.request("Projection").text("perspective").parameter("float fov");
+    rib.numbers({camera.fov_at(frame, aspect)});
   }
   rib.request("Display").text(picture).text("exr").text("rgba");
   // Floats. Binary readers take 0 for an integer only if it is written as one.

@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// Writes everything that RI sets before WorldBegin: Format, PixelSamples, Shutter, Clipping, DepthOfField,
-/// ScreenWindow, Projection, Display, Quantize, and the transform from world to camera space, in a motion
-/// block if the camera moves. Times are in frames relative to the frame.
+/// Writes everything that RI sets before WorldBegin: Format, PixelSamples, Shutter, Clipping, Exposure,
+/// DepthOfField, ScreenWindow, Projection, Display, Quantize, and the transform from world to camera space,
+/// in a motion block if the camera moves. Times are in frames relative to the frame.
 ///
 /// `content`: a box around everything in the scene, for Clipping. `picture`: name of the EXR file for
-/// Display. `camera`: placed_camera() of the scene. The field of view is that at the time of the frame,
-/// because RI has no motion of Projection.
+/// Display. `camera`: focused_camera() of the scene. The field of view is that at the time of the frame,
+/// because RI has no motion of Projection. RI has no curve of the shutter.
 void write_camera(RibWriter& rib, const SceneDescription& scene, const CameraParams& camera, double frame,
                   const Box3f& content, const std::string& picture);
 

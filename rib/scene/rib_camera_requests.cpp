@@ -118,6 +118,9 @@ void RibInterpreter::camera_numbers(const Call& call) {
   } else if (request.name == "FrameAspectRatio") {
     need(1);
     camera_.frame_aspect = positive(request, n[0]);
+  } else if (request.name == "Exposure") {  // pictures are linear: gamma is left to the display
+    need(2);
+    camera_.gain = positive(request, n[0]);
   } else {
     need(2);
     camera_.pixel_samples = V2f(positive(request, n[0]), positive(request, n[1]));

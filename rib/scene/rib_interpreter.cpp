@@ -69,6 +69,7 @@ RibInterpreter::Handler RibInterpreter::state_handler(const std::string& name) {
       {"Format", &I::camera_numbers},
       {"FrameAspectRatio", &I::camera_numbers},
       {"PixelSamples", &I::camera_numbers},
+      {"Exposure", &I::camera_numbers},
       {"Display", &I::display},
       {"Option", &I::option},
       {"Opacity", &I::opacity},

@@ -122,6 +122,7 @@ struct RibCamera {
   std::optional<std::pair<int, int>> format;
   std::optional<float> pixel_aspect, frame_aspect;
   std::optional<V2f> pixel_samples;
+  float gain = 1;  ///< of Exposure
   std::string display;
   bool draws_depths = false;  ///< the display is a shadow map
 };

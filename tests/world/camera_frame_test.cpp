@@ -135,6 +135,54 @@ TEST_F(CameraFrame, TheExtremePointsTouchTheMargins) {
   EXPECT_NEAR(camera.project(balls[1].center, 0)->x, 190, 1e-3);
 }
 
+TEST_F(CameraFrame, AShiftedPictureShowsTheSubjectWhole) {
+  for (const char* parallel : {"null", "1"}) {
+    const Taken taken = taken_by(
+        composed(framed("walker", {{"camera.orthographic", parallel}, {"camera.shift", "[0.3, -0.6]"}}), 1),
+        "walker.coat");
+    EXPECT_GE(taken.smallest_margin(), 0.045f);
+    EXPECT_GE(taken.widest(), 0.8f);
+  }
+}
+
+TEST_F(CameraFrame, FocusFollowsWhatItIsOn) {
+  const std::vector<Override> on{
+      {"camera.position", "[0, 1, 9]"},
+      {"camera.look_at", "[0, 1, 0]"},
+      {"camera.f_stop", "2"},
+      {"camera.focus_on", "walker"},
+      {"characters.walker.transform.translate", "{keys: {1: [0, 1, 0], 2: [0, 1, -3]}}"}};
+  EXPECT_NEAR(composed(on, 1).scene.camera.lod_view().focus_distance, 9, 1e-4f);
+  EXPECT_NEAR(composed(on, 2).scene.camera.lod_view().focus_distance, 12, 0.6f) << "its pose differs, too";
+  EXPECT_NE(message({{"camera.f_stop", "2"}, {"camera.focus_on", "walker"}, {"camera.look_at", "[6, 4, 16]"}})
+                .find("'walker' is behind the camera at frame 1"),
+            std::string::npos);
+}
+
+TEST_F(CameraFrame, ExposureDoublesTheLights) {
+  const World plain = composed({}, 1), bright = composed({{"camera.exposure", "2"}}, 1);
+  for (size_t i = 0; i < plain.scene.lights.size(); ++i)
+    EXPECT_FLOAT_EQ(bright.scene.lights.light(i).importance(V3f(0)),
+                    4 * plain.scene.lights.light(i).importance(V3f(0)));
+}
+
+TEST_F(CameraFrame, ContradictionsAreNamed) {
+  const std::pair<std::vector<Override>, const char*> cases[] = {
+      {{{"camera.focal_length", "50"}}, "`focal_length` contradicts `fov`"},
+      {{{"camera.f_stop", "2"}, {"camera.lens", "{f_stop: 2}"}}, "`f_stop` contradicts `lens`"},
+      {{{"camera.projection", "perspective"}, {"camera.orthographic", "3"}},
+       "`projection` contradicts `orthographic`"},
+      {{{"camera.f_stop", "2"}, {"camera.focus_on", "walker"}, {"camera.focus_distance", "3"}},
+       "`focus_on` contradicts `focus_distance`"},
+      {{{"camera.focus_distance", "3"}}, "`focus_distance` needs `f_stop`"},
+      {{{"camera.focus_on", "walker"}}, "`focus_on` needs `f_stop` or `lens`"},
+      {{{"camera.sensor", "24"}}, "`sensor` needs `focal_length` or `f_stop`"},
+      {{{"camera.f_stop", "2"}, {"camera.focus_on", "wlaker"}}, "to focus on; did you mean 'walker'?"},
+      {{{"camera.projection", "ortographic"}}, "did you mean 'orthographic'?"}};
+  for (const auto& [overrides, expected] : cases)
+    EXPECT_NE(message(overrides).find(expected), std::string::npos) << message(overrides);
+}
+
 TEST_F(CameraFrame, TheDefaultViewIsFromTheFrontAndAbove) {
   const World world =
       composed(framed("walker", {{"camera.position", "null"}, {"camera.look_at", "null"}}), 1);

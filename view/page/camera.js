@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera {position, look_at, up, fov} that turns about the point it looks at. All functions return a new camera.
+// A camera {position, look_at, up, fov, height} that turns about the point it looks at. All functions return a new camera.
 const add = (a, b, s = 1) => a.map((v, i) => v + s * b[i]);
 const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -35,7 +35,7 @@ export function orbit(camera, yaw, pitch) {
 // Moves by parts of the picture's height, at the distance of the point in the centre.
 export function pan(camera, right, up) {
   const f = forward(camera), r = unit(cross(f, camera.up)), u = cross(r, f);
-  const height = 2 * distance(camera) * Math.tan(camera.fov * Math.PI / 360);
+  const height = camera.height || 2 * distance(camera) * Math.tan(camera.fov * Math.PI / 360);
   const shift = add(r.map(v => v * right * height), u, up * height);
   return {...camera, position: add(camera.position, shift), look_at: add(camera.look_at, shift)};
 }

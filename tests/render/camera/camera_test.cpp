@@ -72,6 +72,63 @@ TEST(Camera, OrthographicRaysAreParallel) {
   EXPECT_FALSE(camera.may_see(Box3f(V3f(100), V3f(101))));
 }
 
+TEST(Camera, AShiftMovesThePictureInItsPlane) {
+  for (const bool parallel : {false, true}) {
+    CameraParams params = moving_camera();
+    if (parallel) params.projection = CameraProjection::kOrthographic;
+    const Camera plain(params, 1.5, kWidth, kHeight);
+    params.shift = V2f(0.25f, -0.5f);
+    const Camera camera(params, 1.5, kWidth, kHeight);
+    for (uint64_t i = 0; i < 100; ++i) {
+      const float x = random(i, 0) * kWidth, y = random(i, 1) * kHeight, time = random(i, 2);
+      const CameraRay ray = camera.ray(x, y, V2f(0.5f), time);
+      const CameraRay same = plain.ray(x + 0.25f * kWidth, y + 0.5f * kHeight, V2f(0.5f), time);
+      EXPECT_LT((ray.direction - same.direction).length(), 1e-6f);
+      EXPECT_LT((ray.origin - same.origin).length(), 2e-5f);
+      const V3f at = ray.origin + (1 + 20 * random(i, 3)) * ray.direction;
+      const auto raster = camera.project(at, time);
+      ASSERT_TRUE(raster);
+      EXPECT_NEAR(raster->x, x, 2e-3f);
+      EXPECT_NEAR(raster->y, y, 2e-3f);
+      EXPECT_TRUE(camera.may_see(Box3f(at - V3f(1e-3f), at + V3f(1e-3f))));
+      const V3f still = camera.ray(x, y, V2f(0.5f), camera.frame_time()).origin +
+                        3.0f * camera.ray(x, y, V2f(0.5f), camera.frame_time()).direction;
+      V3f ndc;
+      camera.world_to_ndc().multVecMatrix(still, ndc);
+      const auto expected = camera.project_at_frame(still, 0);
+      EXPECT_NEAR(ndc.x * kWidth, expected->x, 1e-2f);
+      EXPECT_NEAR(ndc.y * kHeight, expected->y, 1e-2f);
+    }
+    EXPECT_NEAR(camera.screen_window_center().x, 0.25f * camera.screen_window_width(), 1e-6f);
+  }
+  CameraParams params;  // from z = 10; half the picture is 1 high and 2 wide at distance 1
+  params.fov = 90;
+  params.shift = V2f(0.5f, 0);
+  const Camera camera(params, 1, 200, 100);
+  const auto sees = [&](float x) { return camera.may_see(Box3f(V3f(x, 0, 0), V3f(x, 0, 0))); };
+  EXPECT_FALSE(sees(-0.1f));
+  EXPECT_TRUE(sees(0.1f));
+  EXPECT_TRUE(sees(39.9f));
+  EXPECT_FALSE(sees(40.1f));
+}
+
+TEST(Camera, PhotographicKeys) {
+  CameraParams params;
+  params.focal_length = Keyed<float>(50.0f);
+  params.sensor = 36;
+  EXPECT_NEAR(params.fov_at(1, 1.5f), 2 * std::atan(12 / 50.0) * 180 / M_PI, 1e-4);
+  params.f_stop = 2.0f;
+  params.meters_per_unit = 0.01f;
+  EXPECT_NEAR(Camera(params, 1, 300, 200).lod_view().lens_diameter, 2.5f, 1e-6f) << "25 mm in centimetres";
+  EXPECT_NEAR(Camera(params, 1, 300, 200).lod_view().focus_distance, 10, 1e-5f) << "look_at";
+  params.focal_length.reset();
+  params.fov = static_cast<float>(2 * std::atan(12 / 50.0) * 180 / M_PI);
+  EXPECT_NEAR(Camera(params, 1, 300, 200).lod_view().lens_diameter, 2.5f, 1e-5f);
+  params.projection = CameraProjection::kOrthographic;
+  EXPECT_NEAR(params.height_at(1, 1.5f), 10 * 24 / 50.0, 1e-5) << "what the lens shows at look_at";
+  EXPECT_FALSE(Camera(params, 1, 300, 200).has_lens());
+}
+
 TEST(Camera, ProjectedLengthIsTheSumOfTheProjectedEdgesBeforeTheCamera) {
   const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
   int behind = 0;

@@ -134,6 +134,22 @@ TEST(TileRaster, ParallelLinesOfSightAgreeWithRays) {
   EXPECT_LT(static_cast<double>(seen.traced), 0.2 * static_cast<double>(seen.samples));
 }
 
+TEST(TileRaster, ShiftedLensesAgreeWithRays) {
+  RasterScene scene(48, 32);
+  scene.camera.position = V3f(-2, 1.5f, 10);
+  scene.camera.look_at = V3f(-2, 1.5f, 0);
+  scene.camera.shift = V2f(0.4f, -0.45f);
+  scene.camera.lens = LensParams{2, 0.5f, 9.5f};
+  scene.camera.shutter = V2f(-0.25f, 0.25f);
+  scene.camera.shutter_curve = ShutterCurve({{0, 0}, {0.5f, 1}, {1, 0}});
+  scene.add_fur(random_strands(5, many(2)), diffuse_fibre(Rgb(0.5f)));
+  scene.add_skin(sphere_mesh(0.5f), LambertParams{});
+  const RasterScene::Agreement seen = scene.compare(16);
+  EXPECT_GT(seen.hits, seen.samples / 20);
+  EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
+  EXPECT_LT(static_cast<double>(seen.traced), 0.2 * static_cast<double>(seen.samples));
+}
+
 TEST(TileRaster, AGroundBelowTheCameraDoesNotTraceWholeTiles) {
   RasterScene scene(48, 32);
   scene.camera.position = V3f(0, 0.3f, 10);

@@ -71,6 +71,17 @@ TEST_F(RibDocumentTest, TheCameraGivesTheRaysOfTheScenesCamera) {
   }
 }
 
+TEST_F(RibDocumentTest, ScreenWindowShiftsTheLensAndExposureIsInStops) {
+  const SceneDescription scene = shot(
+      "Format 200 100 1 Exposure 4 1 ScreenWindow 0 4 -1.5 0.5 Projection \"perspective\" \"fov\" 90 "
+      "Scale 1 1 -1 WorldBegin " +
+      kHair + "WorldEnd");
+  EXPECT_EQ(scene.camera.shift, V2f(0.5f, -0.25f));
+  EXPECT_EQ(scene.camera.exposure.at(1), 2);
+  const Camera camera(scene.camera, 1, 200, 100);
+  EXPECT_LT((camera.ray(200, 100, V2f(.5f), 0).direction - V3f(4, -1.5f, -1).normalized()).length(), 1e-6f);
+}
+
 TEST_F(RibDocumentTest, AMovingCameraHasKeysOverTheShutter) {
   const SceneDescription scene = shot(
       "FrameBegin 7 Shutter -0.25 0.25 Projection \"perspective\" \"fov\" 30 MotionBegin [-0.25 0.25] "

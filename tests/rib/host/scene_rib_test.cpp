@@ -135,6 +135,21 @@ TEST_F(SceneRib, OrthographicCamerasHaveTheirWindow) {
   EXPECT_EQ(find(rib, "ScreenWindow").arguments[3].numbers[0], 3);
 }
 
+TEST_F(SceneRib, PhotographicCamerasAreWrittenInTheTermsOfRi) {
+  const auto rib = requests({}, {{"camera.fov", "null"},
+                                 {"camera.lens", "null"},
+                                 {"camera.focal_length", "50"},
+                                 {"camera.f_stop", "2"},
+                                 {"camera.shift", "[0.5, -0.25]"},
+                                 {"camera.exposure", "3"}});
+  EXPECT_NEAR(find(rib, "Projection").parameter("float fov").numbers[0],
+              2 * std::atan(12 / 50.0) * 180 / M_PI, 1e-3);
+  EXPECT_NEAR(find(rib, "DepthOfField").arguments[1].numbers[0], 5, 1e-5) << "centimetres";
+  EXPECT_EQ(find(rib, "ScreenWindow").arguments[0].numbers[0], 0);
+  EXPECT_EQ(find(rib, "ScreenWindow").arguments[2].numbers[0], -1.5);
+  EXPECT_EQ(find(rib, "Exposure").arguments[0].numbers[0], 8);
+}
+
 TEST_F(SceneRib, MovingCameraIsAMotionBlock) {
   const auto rib = requests({}, {{"camera.position", "{keys: {0: [3, 2, 8], 2: [4, 2, 8]}}"}});
   size_t at = 0;
