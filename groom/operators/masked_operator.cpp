@@ -38,14 +38,14 @@ const Schema<MaskParams>& MaskParams::mask_only() {
         "operator mask",
         "Every operator of a groom also has the key `mask`, which limits it to a part of the skin or of the "
         "strand, and the key `amount`, which weakens it. Operators that have an `amount` among their own "
-        "keys "
-        "use it as described there.");
+        "keys use it as described there.");
     s.set_example(R"(grooms:
   coat:
     skin: patch
     strands: 20000
     operators:
-      - comb: {direction: [1, 0, 0], lift: 0.1, mask: {ramp: {along: x, knots: [[0, 0], [0, 1]]}}})");
+      - comb: {direction: [1, 0, 0], lift: 0.1, mask: {ramp: {along: x, knots: [[0, 0], [0, 1]]}}}
+      - frizz: {amplitude: 0.01, amount: 0.5})");
     s.set_picture("Left: combed everywhere. Right: combed only where the mask is 1.");
     s.key(
         "mask", &MaskParams::mask,

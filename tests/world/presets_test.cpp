@@ -102,7 +102,7 @@ TEST(Presets, EveryValueCanBeOverridden) {
   EXPECT_FALSE(coat.density);
   EXPECT_EQ(coat.points, 5);
   const std::string text = operators_of(found);
-  EXPECT_NE(text.find("length(value=2 scale=1 variation=0.35 )comb(direction=[1, 0, 0] lift=0.3 "),
+  EXPECT_NE(text.find("length(value=2 scale=1 add=0 variation=0.35 )comb(direction=[1, 0, 0] lift=0.3 "),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("color(value=0.5 variation=0.2 )curl("), std::string::npos) << text;

@@ -91,7 +91,7 @@ TEST(FibreWeight, ATangleOfHalvedMarschnerHasAnEnd) {
         [&](const TangleHit& hit, const V3f& u) {
           return material.at(FibreFrame(hit.tangent, hit.wo), hit.h, Rgb(absorption)).sample(u);
         },
-        2048);
+        2048, FibreLay::tangle());
   };
   EXPECT_NEAR(brightness(0.0004f), 0.335, 0.03);
   EXPECT_NEAR(brightness(0.02f), 0.265, 0.03);
