@@ -20,6 +20,7 @@
 #include "render/frame/frame_chunks.h"
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_window.h"
+#include "render/frame/sample_passes.h"
 #include "render/gather/gather_tracer.h"
 #include "render/weighted_selection.h"
 
@@ -214,6 +215,8 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   const FilmLayers layers = layers_of(scene);
   const FrameWindow window = frame_window(scene.image.width, scene.image.height, region, layers.splat);
   estimate.film_bytes = Film::bytes_needed(window.film.width(), window.film.height(), layers);
+  estimate.film_bytes +=
+      SamplePasses::bytes_needed(scene.render, int64_t{window.film.width()} * window.film.height());
   const MemoryCharge film = reserve(job.ledger, MemoryTag::kFilm, estimate.film_bytes, "the frame buffer");
   const int64_t before = job.ledger.budgeted();
   GatherTracer::Memory tiles;

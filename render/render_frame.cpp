@@ -189,6 +189,9 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   const int width = window.film.width(), height = window.film.height();
   require_memory(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
   FrameResult result{Film(width, height, layers, job.ledger), window};
+  const MemoryCharge counts =
+      reserve(job.ledger, MemoryTag::kFilm, SamplePasses::bytes_needed(used.render, int64_t{width} * height),
+              "the sample counts of adaptive sampling");
   GatherTracer::Memory memory;
   if (used.render.integrator == Integrator::kGather) memory = GatherTracer::reserve(used, job);
   std::optional<CoarsePictures> coarse;

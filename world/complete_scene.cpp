@@ -17,6 +17,8 @@ void complete_parts(SceneDescription& scene, Problems& problems) {
       }
       if (part.grooms.items.empty()) problems.add(position, where + " needs a skin, or grooms");
       if (part.poses) problems.add(part.poses->files.position, where + " has poses, but no skin");
+      if (!part.material.name.empty())
+        problems.add(part.material.position, where + " has the `material` of a skin, but no skin");
       for (const auto& groom : part.grooms.items) {
         const auto* grown = scene.grooms.find(groom.name);
         if (grown && grown->value.strands_file.empty())

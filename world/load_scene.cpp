@@ -132,12 +132,16 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   if (!crowd.ground.name.empty()) {
     check_name(crowd.ground, "character", scene.characters, problems);
     const auto* ground = scene.characters.find(crowd.ground.name);
-    bool moves = ground && moves_ever(scene, ground->value);
-    for (const NameReference& name : crowd.of) moves |= name.name == crowd.ground.name;
-    if (moves)
-      problems.add(crowd.ground.position, quote(crowd.ground.name) +
-                                              " moves, or is an animal of the crowd; "
-                                              "the ground must be still");
+    if (ground && moves_ever(scene, ground->value))
+      problems.add(crowd.ground.position, quote(crowd.ground.name) + " moves; the ground must be still");
+    for (const auto& other : scene.crowds.items) {
+      for (const NameReference& name : other.value.of) {
+        if (name.name == crowd.ground.name)
+          problems.add(crowd.ground.position, quote(crowd.ground.name) + " is an animal of crowd " +
+                                                  quote(other.name) +
+                                                  "; the ground must be a character of its own");
+      }
+    }
   } else if (crowd.tilt > 0) {
     refuse(": `tilt` needs `ground`");
   }

@@ -9,6 +9,8 @@
 namespace pelage {
 namespace {
 
+constexpr const char* kWhat = "the ground of a crowd";
+
 constexpr double kMaxTriangles = 1 << 20;  // of a coarse cage; dense ones have those of their faces
 
 int steps_of(const SurfaceTopology& topology) {
@@ -38,13 +40,10 @@ Terrain::Terrain(std::vector<Surface> surfaces, const Job& job) : surfaces_(std:
     const auto steps = static_cast<size_t>(steps_of(topology));
     count += 2 * steps * steps * topology.face_count();
   }
-  // The grid has about as many entries as there are triangles, and each triangle is in few cells.
-  charge_ = reserve(job.ledger, MemoryTag::kSkins,
-                    static_cast<int64_t>(count * (sizeof(Triangle) + 6 * sizeof(uint32_t))),
-                    "the ground of a crowd");
+  charge_ = reserve(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(count * sizeof(Triangle)), kWhat);
   triangles_.reserve(count);
   for (uint32_t i = 0; i < surfaces_.size(); ++i) add_triangles(i, job);
-  sort_into_cells();
+  sort_into_cells(job);
 }
 
 void Terrain::add_triangles(uint32_t surface, const Job& job) {
@@ -77,15 +76,19 @@ size_t Terrain::cell_of(float value, int axis) const {
   return cell > 0 ? std::min(static_cast<size_t>(std::min(cell, 1e9f)), count - 1) : 0;
 }
 
-void Terrain::sort_into_cells() {
+/// Makes a grid of about square cells, half as many as triangles.
+void Terrain::sort_into_cells(const Job& job) {
   Box3f box;
   for (const Triangle& triangle : triangles_) {
     for (const V3f& corner : triangle.corner) box.extendBy(corner);
   }
   if (box.isEmpty()) return;
   low_ = V2f(box.min.x, box.min.z);
-  columns_ = rows_ = std::max<size_t>(1, static_cast<size_t>(std::sqrt(double(triangles_.size()) / 2)));
-  cell_ = V2f(std::max(box.size().x, 1e-30f), std::max(box.size().z, 1e-30f)) / static_cast<float>(columns_);
+  const V2f size(std::max(box.size().x, 1e-30f), std::max(box.size().z, 1e-30f));
+  const double cells = std::max(1.0, double(triangles_.size()) / 2);
+  columns_ = static_cast<size_t>(std::clamp(std::sqrt(cells * double(size.x) / double(size.y)), 1.0, cells));
+  rows_ = std::max<size_t>(1, static_cast<size_t>(cells) / columns_);
+  cell_ = V2f(size.x / static_cast<float>(columns_), size.y / static_cast<float>(rows_));
   const auto for_each_cell = [&](const Triangle& triangle, const auto& visit) {
     Box3f own;
     for (const V3f& corner : triangle.corner) own.extendBy(corner);
@@ -94,9 +97,20 @@ void Terrain::sort_into_cells() {
         visit(row * columns_ + column);
     }
   };
+  const auto grid_bytes = static_cast<int64_t>((2 * columns_ * rows_ + 1) * sizeof(uint32_t));
+  cells_charge_ = reserve(job.ledger, MemoryTag::kSkins, grid_bytes, kWhat);
   first_.assign(columns_ * rows_ + 1, 0);
-  for (const Triangle& triangle : triangles_)
-    for_each_cell(triangle, [&](size_t cell) { ++first_[cell + 1]; });
+  size_t entries = 0;
+  for (const Triangle& triangle : triangles_) {
+    for_each_cell(triangle, [&](size_t cell) {
+      ++first_[cell + 1];
+      ++entries;
+    });
+  }
+  const auto entry_bytes = static_cast<int64_t>(entries * sizeof(uint32_t));
+  require_memory(job.ledger, entry_bytes, kWhat);
+  cells_charge_ = {};
+  cells_charge_ = MemoryCharge(job.ledger, MemoryTag::kSkins, grid_bytes + entry_bytes);
   for (size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
   in_cells_.resize(first_.back());
   std::vector<uint32_t> next(first_.begin(), first_.end() - 1);

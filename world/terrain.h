@@ -39,12 +39,12 @@ class Terrain {
     V2f uv[3];      // in the face
   };
   void add_triangles(uint32_t surface, const Job& job);
-  void sort_into_cells();
+  void sort_into_cells(const Job& job);
   size_t cell_of(float value, int axis) const;
   Point refined(const Triangle& triangle, V2f uv, float x, float z) const;
 
   std::vector<Surface> surfaces_;
-  MemoryCharge charge_;
+  MemoryCharge charge_, cells_charge_;
   std::vector<Triangle> triangles_;
   V2f low_{0}, cell_{1};
   size_t columns_ = 1, rows_ = 1;

@@ -45,14 +45,14 @@ bool ValueReader<FileUnit>::read(const Value& value, const KeyOptions&, FileUnit
       return true;
     }
     const std::optional<double> number = parse_number(value.text());
-    if (number && *number > 0 && *number < 1e9) {
+    if (number && *number > 1e-9 && *number < 1e9) {
       out.meters = static_cast<float>(*number);
       return true;
     }
   }
-  problems.add(value.position(), "expected m, cm, mm, inch, foot or a number of metres > 0, got " +
-                                     value.describe() +
-                                     (value.is_scalar() ? suggest(value.text(), names) : ""));
+  problems.add(value.position(),
+               "expected m, cm, mm, inch, foot or a number of metres from 1e-9 to 1e9, got " +
+                   value.describe() + (value.is_scalar() ? suggest(value.text(), names) : ""));
   return false;
 }
 

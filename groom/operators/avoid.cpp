@@ -48,7 +48,8 @@ const Schema<AvoidParams>& AvoidParams::schema() {
     s.key("offset", &AvoidParams::offset,
           {.unit = "scene units",
            .help = "Minimum distance between strands and mesh, except near the roots",
-           .min = 0});
+           .min = 0,
+           .max = 1e9});
     s.key("iterations", &AvoidParams::iterations, {.help = "Maximum number of passes", .min = 1, .max = 64});
     return s;
   }();

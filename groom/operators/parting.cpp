@@ -86,7 +86,8 @@ void Parting::prepare(const PrepareContext& context) {
     throw Error(ErrorKind::kInput, context.position, "the operator part " + why);
   };
   if (!context.rest) refuse("needs strands that grow on a skin");
-  if (params_.points.empty() == params_.file.empty()) refuse("needs one of the keys `points` and `file`");
+  if (params_.points.empty() && params_.file.empty()) refuse("needs `points` or `file`");
+  if (!params_.points.empty() && !params_.file.empty()) refuse("takes `points` or `file`, not both");
   std::vector<std::vector<V3f>> lines{params_.points};
   if (!params_.file.empty()) lines = lines_of(params_.file);
   const SkinBinding binding(*context.rest, params_.file.empty() ? "a part" : params_.file.path, context.job);

@@ -42,14 +42,14 @@ void add_photographic_keys(Schema<CameraParams>& s) {
   s.key("focal_length", &CameraParams::focal_length,
         {.unit = "mm",
          .help = "Focal length, instead of `fov`: the picture is `sensor` wide at this distance",
-         .min = 0,
-         .above_min = true});
+         .min = 0.1,
+         .max = 1e5});
   s.key("sensor", &CameraParams::sensor,
         {.unit = "mm",
          .help = "Width of the sensor, for `focal_length` and `f_stop`. Its height follows from the "
                  "picture's aspect ratio",
-         .min = 0,
-         .above_min = true});
+         .min = 0.1,
+         .max = 1e3});
   s.key("shift", &CameraParams::shift,
         {.unit = "widths and heights of the picture",
          .help = "Lens shift: moves the picture to the right and up in the image plane. Lines that are "
@@ -62,8 +62,7 @@ void add_photographic_keys(Schema<CameraParams>& s) {
   s.key("f_stop", &CameraParams::f_stop,
         {.help = "F-number: depth of field with the aperture of a lens of `focal_length` (or of the focal "
                  "length that `fov` and `sensor` give), in the length of `units`; instead of `lens`",
-         .min = 0,
-         .above_min = true,
+         .min = 0.01,
          .default_text = "a pinhole"});
   s.key("focus_distance", &CameraParams::focus_distance,
         {.unit = "scene units",

@@ -58,6 +58,12 @@ SamplePasses::SamplePasses(FrameLoop& loop, const RenderParams& params, const Jo
         return watch_->region_version() != region_seen_ || watch_->pause_version() != pause_seen_;
       } : std::function<bool()>()) {}
 
+int64_t SamplePasses::bytes_needed(const RenderParams& params, int64_t pixels) {
+  // The pilot, the wanted, given and final counts, and the parts of the rule.
+  constexpr int64_t kPixel = sizeof(PilotPixel) + 3 * sizeof(uint32_t) + 32;
+  return params.adaptive ? kPixel * pixels : 0;
+}
+
 PassState SamplePasses::state() const {
   return {loop_.min_samples(), loop_.mean_samples(), grid_, coarse_, full_};
 }

@@ -38,6 +38,9 @@ class SamplePasses {
   SamplePasses(FrameLoop& loop, const RenderParams& params, const Job& job, const Stopwatch& clock, bool fits,
                FrameWatch* watch = nullptr);
 
+  /// Returns the memory, in bytes, that adaptive sampling needs in a picture of so many pixels.
+  static int64_t bytes_needed(const RenderParams& params, int64_t pixels);
+
   /// How the passes ended.
   struct End {
     bool partial = false;       ///< cancelled

@@ -9,7 +9,8 @@ namespace pelage {
 std::optional<LightHit> PlateLight::seen(const V3f& from, const V3f& direction, float time) const {
   const int width = plate_->width(), height = plate_->height();
   const V2f place = camera_.picture_position(from, direction, time);
-  const float x = place.x * static_cast<float>(width), y = place.y * static_cast<float>(height);
+  float x = place.x * static_cast<float>(width), y = place.y * static_cast<float>(height);
+  if (!std::isfinite(x) || !std::isfinite(y)) x = y = 0;  // the camera is beyond what floats resolve
   const auto at = [&](float column, float row) {
     return plate_->texel(static_cast<int>(std::clamp(column, 0.0f, static_cast<float>(width - 1))),
                          static_cast<int>(std::clamp(row, 0.0f, static_cast<float>(height - 1))));
