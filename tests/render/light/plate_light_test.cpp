@@ -54,6 +54,15 @@ TEST(PlateLight, SmallPicturesAreInterpolated) {
   EXPECT_NEAR(seen.y, 0.5f, 1e-4f);
 }
 
+TEST(PlateLight, StaysInThePictureWhereFloatsDoNotResolveTheCamera) {
+  const Camera camera({}, 1, 64, 32);
+  for (const int width : {64, 4}) {
+    const PlateLight light("background", std::make_shared<const Texture>(ramp(width, 2)), camera, 64);
+    const float nan = std::nanf("");
+    EXPECT_EQ(light.seen(V3f(nan), V3f(nan, 0, -1), 0)->radiance, Rgb(0));
+  }
+}
+
 TEST(EnvironmentLight, TheCameraSeesNoBlocks) {
   MemoryLedger ledger;
   const EnvironmentLight sky("sky", std::make_shared<const Texture>(ramp(8, 4)), Rgb(1), M33f(), true,
