@@ -85,6 +85,9 @@ TEST(Terrain, CrowdsStandOnIt) {
   };
   EXPECT_NE(message("crowds.herd.area.radius", "90").find("has no ground at"), std::string::npos);
   EXPECT_NE(message("crowds.herd.ground", "walker").find("the ground must be still"), std::string::npos);
+  EXPECT_NE(message("crowds.other", "{of: [slope], count: 1, area: {type: disc, radius: 1}}")
+                .find("'slope' is an animal of crowd 'other'"),
+            std::string::npos);
   EXPECT_NE(message("crowds.herd.ground", "slopes").find("did you mean 'slope'?"), std::string::npos);
 }
 
