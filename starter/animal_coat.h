@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// The fur of an animal, in real measures: what `preset: NAME` of a groom or of a material stands for.
+/// The fur of an animal, in real measures, from which the keys of the presets of grooms and materials follow.
 /// docs/PRESETS.md gives the sources of the numbers, and says which of them are estimates.
 struct AnimalCoat {
   const char* name;

@@ -8,7 +8,7 @@
 
 namespace pelage {
 
-/// Returns the keys of the groom that `preset: NAME` stands for, as a block of YAML in one line, for a scene
+/// Returns the keys of a groom that replace `preset: NAME`, as a block of YAML in one line, for a scene
 /// with `units_per_mm` scene units per millimetre.
 ///
 /// `part` is the fraction of the measured density that grows, greater than 0. Measured coats cover the skin
@@ -16,7 +16,7 @@ namespace pelage {
 /// often as the animal does, if that is less), seen from the side.
 std::string groom_text(const AnimalCoat& animal, double units_per_mm, double part);
 
-/// Returns the keys of the material that `preset: NAME` stands for, as groom_text() does.
+/// Returns the keys of a material that replace `preset: NAME`, as groom_text() does.
 std::string material_text(const AnimalCoat& animal);
 
 /// Returns the coat in proportion to the body, for animals of any size.

@@ -98,7 +98,11 @@ const AnimalCoat* animal_of(const Value& preset, Problems& problems) {
 
 void expand_groom(Value& groom, double units_per_mm, Problems& problems) {
   Value* preset = groom.find("preset");
-  if (!preset) return;
+  if (!preset) {
+    if (const Value* density = groom.find("preset_density"))
+      problems.add(density->position(), "`preset_density` needs `preset`");
+    return;
+  }
   const AnimalCoat* animal = animal_of(*preset, problems);
   double part = 1;
   if (const Value* given = groom.find("preset_density")) {
@@ -133,12 +137,14 @@ const SchemaInfo* table_of(Value material) {
 
 /// Puts the colour of an animal into a material that has a model of its own. Names that are presets of the
 /// model itself, such as `fox` of chiang, keep that meaning.
-void expand_color(Value& material, const SchemaInfo& table) {
+void expand_color(Value& material, const SchemaInfo& table, Problems& problems) {
   const Value preset = *material.find("preset");
   const AnimalCoat* animal = preset.is_scalar() ? find_animal_coat(preset.text()) : nullptr;
   const KeyInfo* own = table.find("preset");
-  if (!animal || (own && (own->type + " ").find(" " + preset.text() + " ") != std::string::npos)) return;
+  if (own && (!animal || (own->type + " ").find(" " + preset.text() + " ") != std::string::npos)) return;
   erase(material, "preset");
+  if (!animal) animal_of(preset, problems);
+  if (!animal) return;
   Value expanded = parsed(material_text(*animal), preset.position());
   for (const char* key : {"color", "melanin"}) {
     Value* value = expanded.find(key);
@@ -152,7 +158,7 @@ void expand_material(Value& material, Problems& problems) {
   Value* preset = material.find("preset");
   if (!preset) return;
   if (material.find("model")) {
-    if (const SchemaInfo* table = table_of(material)) expand_color(material, *table);
+    if (const SchemaInfo* table = table_of(material)) expand_color(material, *table, problems);
     return;
   }
   const AnimalCoat* animal = animal_of(*preset, problems);

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// Replaces `preset: NAME` of grooms, and of materials without a `model`, by the keys that it stands for
+/// Replaces `preset: NAME` of grooms, and of materials without a `model`, by the keys of the preset
 /// (starter/animal_preset.h), scaled by `units`. The scene then is the same as if these keys were written
 /// out.
 ///

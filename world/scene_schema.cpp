@@ -204,8 +204,8 @@ camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0]
                "of an operator or material, or another region. A region means the same on every skin"});
     s.key("grooms", &SceneDescription::grooms, {.help = "Coats, by name"});
     s.key("materials", &SceneDescription::materials,
-          {.help = "Materials of skins and strands, by name. For strands, `preset` may stand in place of "
-                   "`model`: the hair of an animal, by the names that `preset` of a groom has"});
+          {.help = "Materials of skins and strands, by name. For strands, `preset` may replace "
+                   "`model`: it gives the hair of an animal, with the names of `preset` of a groom"});
     s.key("characters", &SceneDescription::characters, {.help = "Animals, by name"});
     s.key("crowds", &SceneDescription::crowds,
           {.help = "Groups of many animals made from a few characters, by name"});

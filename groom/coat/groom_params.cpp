@@ -68,8 +68,8 @@ void add_preset_keys(Schema<GroomParams>& s) {
   s.key("preset", &GroomParams::preset,
         {.help = "Coat of an animal, in real measures: rat, mouse, rabbit, cat-short, cat-long, dog-wire, "
                  "fox, horse, panther, polar-bear, sheep, human-straight, human-curly, human-blond or "
-                 "human-red. It stands for a density, points and operators, scaled by `units`; "
-                 "docs/PRESETS.md lists them with their sources. Keys of the groom override them. In "
+                 "human-red. A preset sets the density, the points and the operators, scaled by `units`; "
+                 "docs/PRESETS.md lists all values with their sources. Keys of the groom override them. In "
                  "`operators`, the first operator of a name changes the preset's; others follow it. The "
                  "direction of comb, for example, usually needs to be given"});
   s.key("preset_density", &GroomParams::preset_density,

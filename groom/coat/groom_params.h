@@ -25,7 +25,8 @@ struct GroomCacheParams {
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  /// As written; expand_presets() has put the keys that the name stands for in its place (world/presets.h).
+  /// Only for the schema: expand_presets() replaces the name by keys before grooms are read
+  /// (world/presets.h).
   NameReference preset;
   float preset_density = 1;
   NameReference skin;                  ///< name of a skin; empty for strands of a file without a skin

@@ -31,8 +31,8 @@ const Schema<AvoidParams>& AvoidParams::schema() {
     Schema<AvoidParams> s(
         "avoid",
         "Keeps strands out of another mesh, such as a collar or a saddle. A strand that "
-        "cannot be moved out ends where it would enter; where roots are inside, nothing but "
-        "stubs is left.");
+        "cannot be moved out ends where it would enter. A strand whose root is inside keeps a thousandth of "
+        "its length.");
     s.set_example(R"(grooms:
   coat:
     skin: patch

@@ -54,7 +54,7 @@ class GuideSet {
   size_t bytes() const;
 
  private:
-  /// Drops guides whose root is within `apart` of that of a similar guide before them.
+  /// Drops each guide whose root lies within `apart` of the root of an earlier, similar guide.
   void drop_twins(float apart);
 
   int points_ = 0;

@@ -105,7 +105,7 @@ void PushedStrand::draw_back() {
   std::vector<V3f> kept(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(good) + 1);
   const size_t last = points_.size() - 1;
   if (good == 0) {
-    // Only the root is outside: a stub along its normal.
+    // Only the root is outside. A thousandth of the length is left, along the normal of the skin.
     for (size_t p = 1; p <= last; ++p) points_[p] = root_ + normal_ * (1e-3f * arcs_[p]);
     return;
   }

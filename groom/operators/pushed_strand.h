@@ -14,7 +14,8 @@ class ClosestPointTree;
 ///
 /// Afterwards, no point of the strand's curve lies inside, and control points keep a distance that grows from
 /// 0 at the root. Segments keep their lengths as far as possible. A strand that cannot be moved out is
-/// shortened: it ends at the last point of its curve outside. If its root is inside, only a stub is left.
+/// shortened: it ends at the last point of its curve outside. If its root is inside, a thousandth of its
+/// length is left.
 class PushedStrand {
  public:
   /// `normal`: of the skin at the root. `depth`: of the root inside the mesh, or 0 if it is outside or on it.

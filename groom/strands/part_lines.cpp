@@ -50,7 +50,7 @@ PartLines::PartLines(std::span<const std::vector<V3f>> lines, const LimitSurface
       add(line[i], true);
     }
     add_line(points, normals, kSamePlace * size);
-    // The caller refuses what is beyond the limit.
+    // Too many segments: stop here. The caller compares segment_count() with the limit and refuses.
     if (segments_.size() > kMaxSegments) return;
   }
 }

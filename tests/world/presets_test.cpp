@@ -137,6 +137,10 @@ TEST(Presets, MistakesAreOneLineWithTheNearestName) {
   EXPECT_EQ(expanded("grooms: {coat: {preset: [rat], skin: ball}}\n").problems,
             std::vector<std::string>{"s.yaml:3:25: expected the name of a preset, got a list of 1"});
   EXPECT_EQ(expanded("grooms: {coat: {preset: rat, preset_density: 2, skin: ball}}\n").problems.size(), 1u);
+  EXPECT_EQ(expanded("grooms: {coat: {preset_density: 0.5, strands: 9, skin: ball}}\n").problems,
+            std::vector<std::string>{"s.yaml:3:33: `preset_density` needs `preset`"});
+  EXPECT_EQ(expanded("materials: {fur: {model: cone-shell, preset: foxx}}\n").problems,
+            std::vector<std::string>{"s.yaml:3:46: there is no preset 'foxx'; did you mean 'fox'?"});
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(GatherNoise, AdaptiveTilesKeepTheMeanAndTheBudget) {
   scene.render.adaptive->noise = 0.1f;
   scene.render.seed = 1;
   const FrameResult adaptive = scene.run();
-  // `noise` is that of a pixel's own samples.
+  // `noise` ignores the samples that neighbouring pixels share with a pixel by splatting.
   EXPECT_NEAR(adaptive.noise, 0.1, 0.03);
   EXPECT_LT(adaptive.film.samples(39, 31), adaptive.film.samples(20, 10)) << "less fur";
   for (int y = 0; y < 32; ++y) {
