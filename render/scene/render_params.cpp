@@ -80,13 +80,13 @@ const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "Rendering method, quality and limits.");
     s.set_example(R"(render: {samples: 256, bounces: 8, memory: 8G})");
-    s.key(
-        "integrator", &RenderParams::integrator,
-        {.help =
-             "`gather`: samples that see the same piece of a strand or skin share shadow rays and indirect "
-             "light. Single pixels reach the same noise in a third to a tenth of the time, but shadows blur "
-             "along strands by `gather.spacing`. `path`: every sample of a pixel is a path of its own; the "
-             "reference"});
+    s.key("integrator", &RenderParams::integrator,
+          {.help =
+               "`gather`: samples that see the same piece of a strand or skin share shadow rays and indirect "
+               "light. Single pixels reach the same noise in half to a thirteenth of the time, but shadows "
+               "blur "
+               "along strands by `gather.spacing`. `path`: every sample of a pixel is a path of its own; the "
+               "reference"});
     s.key("gather", &RenderParams::gather,
           {.help = "Settings of `integrator: gather`", .default_text = "as below"});
     s.key("accel", &RenderParams::accel,
