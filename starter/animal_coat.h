@@ -14,6 +14,7 @@ namespace pelage {
 struct AnimalCoat {
   const char* name;
   const char* help;
+  bool scalp = false;  ///< hair of a human scalp: of the body, it covers BodyShape::scalp only
   float body_mm;       ///< diameter of the sphere with the area of the skin that the hair covers
   float density;       ///< hairs per square centimetre
   float diameter_um;   ///< mean diameter of all hairs at the root, micrometres

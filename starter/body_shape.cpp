@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
+#include "starter/cage_faces.h"
 
 namespace pelage {
 namespace {
@@ -35,15 +35,7 @@ UsedVertices used_vertices(const ControlMesh& mesh) {
 
 double cage_area(const ControlMesh& mesh) {
   double area = 0;
-  const uint32_t* corner = mesh.face_vertices.data();
-  for (const uint32_t count : mesh.face_sizes) {
-    V3d sum(0);  // of a polygon that need not be flat
-    const V3d first(mesh.positions[corner[0]]);
-    for (uint32_t i = 1; i + 1 < count; ++i)
-      sum += (V3d(mesh.positions[corner[i]]) - first).cross(V3d(mesh.positions[corner[i + 1]]) - first);
-    area += 0.5 * sum.length();
-    corner += count;
-  }
+  for_each_cage_face(mesh, [&](const CageFace& face) { area += face.area; });
   return area;
 }
 
@@ -157,8 +149,6 @@ std::optional<AxisDirection> parse_axis(std::string_view text) {
   return result;
 }
 
-float BodyShape::size() const { return std::sqrt(area / std::numbers::pi_v<float>); }
-
 BodyShape body_shape(ControlMesh mesh, const std::string& source, std::optional<AxisDirection> up,
                      std::optional<AxisDirection> facing) {
   BodyShape shape;
@@ -177,6 +167,7 @@ BodyShape body_shape(ControlMesh mesh, const std::string& source, std::optional<
     const int length = guess_length_axis(used, asymmetry, shape.up.axis);
     shape.facing = {length, guess_sign(used, length, shape.up)};
   }
+  shape.scalp = guess_scalp(mesh, shape.box, shape.up.vector(), shape.facing.vector());
   shape.scheme = scheme_for(mesh, source);
   shape.meters_per_unit = unit_for(max_component(shape.box.size()));
   return shape;

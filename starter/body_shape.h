@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +10,7 @@
 #include "base/vector.h"
 #include "geom/limit_surface.h"
 #include "geom/mesh.h"
+#include "starter/scalp.h"
 
 namespace pelage {
 
@@ -25,6 +28,8 @@ struct AxisDirection {
 /// Reads "x", "+x" or "-x" and the like. Empty for any other text.
 std::optional<AxisDirection> parse_axis(std::string_view text);
 
+inline float sphere_diameter(float area) { return std::sqrt(area / std::numbers::pi_v<float>); }
+
 /// What the geometry of a mesh says about the animal. Lengths are in units of the mesh.
 struct BodyShape {
   Box3f box;                 ///< of the vertices that faces use
@@ -32,6 +37,7 @@ struct BodyShape {
   size_t doubled_faces = 0;  ///< faces that have the same vertices as an earlier face
   AxisDirection up{1, 1};
   AxisDirection facing{2, 1};                                   ///< where the head is; a guess
+  Scalp scalp;                                                  ///< if this is a person; a guess
   SubdivisionScheme scheme = SubdivisionScheme::kCatmullClark;  ///< that suits the mesh
   float meters_per_unit = 1;  ///< 1, 0.01 or 0.001: with which the body is nearest to 0.6 m long
 
@@ -39,7 +45,7 @@ struct BodyShape {
   /// Whether the body is clearly higher than long, like a penguin or a bust.
   bool is_upright() const { return extent(up) > 1.2f * extent(facing); }
   /// Diameter of the sphere with the same area: the length to which coats are scaled.
-  float size() const;
+  float size() const { return sphere_diameter(area); }
 };
 
 /// Examines a mesh. `up` and `facing` replace the guesses; `facing` must not be along `up`.

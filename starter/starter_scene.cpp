@@ -115,14 +115,32 @@ std::string length_lines(const BodyShape& shape) {
       ramp(shape, shape.up, {{0, 0.45f}, {0.25f, 0.65f}, {0.45f, 1}}));
 }
 
+/// Strands per area: 1 on the scalp, 0 elsewhere.
+std::string scalp_text(const BodyShape& shape) {
+  const Scalp& scalp = shape.scalp;
+  const float up = shape.extent(shape.up), forward = scalp.slope * shape.extent(shape.facing);
+  const BodyAxes axes(shape);
+  const auto low = [&](const V3f& axis) {
+    return std::min(axis.dot(shape.box.min), axis.dot(shape.box.max));
+  };
+  const float at = scalp.height - low(axes.up) + scalp.slope * low(axes.forward);
+  return fmt::format(
+      "    density: {{threshold: {{add: [{}, {}]}}, at: {}, width: {}}}   # the scalp: above a plane from "
+      "the nape to the forehead\n",
+      ramp(shape, shape.up, {{0, 0}, {1, up}}), ramp(shape, shape.facing, {{0, 0}, {1, -forward}}), place(at),
+      number(0.04 * up));
+}
+
 std::string coat_text(const StarterScene& starter) {
   const CoatLook& look = starter.look;
   const BodyShape& shape = starter.shape;
   const BodyAxes axes(shape);
-  const float size = shape.size(), length = look.length * size;
+  const bool scalp = look.animal && look.animal->scalp;
+  const float area = scalp ? shape.scalp.area : shape.area;
+  const float size = sphere_diameter(area), length = look.length * size;
   const int strands = starter.strands > 0 ? starter.strands : look.strands;
   // Strands taper, vary and are shorter here and there: half of root times length is a strand's mean area.
-  const float wanted = 2 * look.coverage * shape.area / (float(strands) * length);
+  const float wanted = 2 * look.coverage * area / (float(strands) * length);
   const float width = std::min(wanted, length / 12);  // wider, they are needles
   const V3f down = shape.is_upright() ? axes.at(-0.4f, 0, -1) : axes.at(-1, 0, -look.droop);
   std::string text = fmt::format(
@@ -131,12 +149,13 @@ grooms:
   coat:
     skin: body
     strands: {}   # with twice as many, halve the width
-    points: {}
+{}    points: {}
     operators:
       - length: {{value: {}, variation: 0.4}}
 {}      - comb: {{direction: {}, lift: {}, curve: 0.4}}   # along the body; lift 0 is flat, 1 upright
 )",
-      strands, look.points, number(length), length_lines(shape), vector(down), number(look.lift));
+      strands, scalp ? scalp_text(shape) : "", look.points, number(length), scalp ? "" : length_lines(shape),
+      vector(down), number(look.lift));
   if (look.bend > 0)
     text += fmt::format("      - bend: {{direction: {}, angle: {}, variation: 0.5}}   # gravity\n",
                         vector(-axes.up), number(look.bend));

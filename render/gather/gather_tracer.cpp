@@ -95,7 +95,7 @@ GatherTracer::GatherTracer(const FrameScene& scene, const Accel& accel, const Re
       first_alone_(scene.render.time_limit > 0 || (scene.render.samples > kFewSamples && !layers.noise)),
       shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
-      points_(scene, shading_, camera_, far_lights_, samples_at_once(scene)),
+      points_(scene, accel, shading_, camera_, far_lights_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
       indirect_paths_(scene, accel, shading_, camera_, options_, cache_) {
   if (scene.render.draws_visible()) raster_.emplace(scene, accel, chunks, camera_);
@@ -248,6 +248,7 @@ void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
     const TileSamples::Sample& from = samples.samples[i];
     scratch.sample = FilmSample{};
     scratch.sample.offset = from.offset;
+    scratch.sample.alpha = from.alpha;
     scratch.by_layer.assign(layers_.size(), Rgb(0));
     for (; seen != samples.seen_lights.end() && seen->sample == i; ++seen) {
       scratch.sample.radiance += seen->radiance;
@@ -255,7 +256,6 @@ void GatherTracer::add_samples(const TileTask& task, Scratch& scratch) const {
     }
     if (from.point != TileSamples::kNoPoint) {
       const TileSamples::Front& front = samples.fronts[from.pixel];
-      scratch.sample.alpha = 1;
       if (front.sample == i) scratch.sample.surface = front.of_pixel.surface;
       add_scattered(from.point, scratch);
     }

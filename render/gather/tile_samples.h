@@ -69,7 +69,8 @@ struct TileSamples {
   struct Sample {
     V2f offset{0};              ///< from the centre of its pixel, in pixels
     uint32_t pixel = 0;         ///< index of the pixel in the tile
-    uint32_t point = kNoPoint;  ///< index in `points`; kNoPoint: the sample hits nothing
+    uint32_t point = kNoPoint;  ///< index in `points`; kNoPoint: the sample hits nothing, or a shadow catcher
+    float alpha = 0;
   };
   /// A light that a sample sees directly.
   struct SeenLight {

@@ -20,11 +20,12 @@ float turned(float u, size_t i) {
 
 }  // namespace
 
-VisiblePoints::VisiblePoints(const FrameScene& scene, const FrameShading& shading,
+VisiblePoints::VisiblePoints(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
                              const CameraSamples& camera, const FarLightSamples& far_lights, uint32_t samples)
     : scene_(scene),
       shading_(shading),
       camera_(camera),
+      catcher_(scene, accel),
       keys_(scene, samples),
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &far_lights) {}
 
@@ -47,20 +48,30 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
                         TileSamples& tile) const {
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  seen_lights(scene_.lights, from.ray.origin, from.ray.direction, from.ray.time, hit.distance,
-              [&](size_t light, const Rgb& radiance) {
-                const auto source = static_cast<uint32_t>(scene_.source(light));
-                auto& seen = tile.seen_lights;
-                const auto same = std::find_if(seen.rbegin(), seen.rend(), [&](const auto& other) {
-                  return other.sample != index || other.light == source;
-                });
-                if (same != seen.rend() && same->sample == index) {
-                  same->radiance += radiance;
-                } else {
-                  seen.push_back({index, source, radiance});
-                }
-              });
+  const auto see = [&](size_t light, const Rgb& radiance) {
+    const auto source = static_cast<uint32_t>(scene_.source(light));
+    auto& seen = tile.seen_lights;
+    const auto same = std::find_if(seen.rbegin(), seen.rend(), [&](const auto& other) {
+      return other.sample != index || other.light == source;
+    });
+    if (same != seen.rend() && same->sample == index) {
+      same->radiance += radiance;
+    } else {
+      seen.push_back({index, source, radiance});
+    }
+  };
+  const Ray& ray = from.ray;
+  seen_lights(scene_.lights, ray.origin, ray.direction, ray.time, hit.distance, see);
   if (!hit) return;
+  if (catcher_.is_catcher(hit)) {
+    SampleStream stream = camera_.stream(tile.x(pixel), tile.y(pixel), sample);
+    const Rgb blocked = catcher_.blocked(ray, hit, stream, scratch.direct, thread);
+    tile.samples.back().alpha = luminance(blocked);
+    background_lights(scene_.lights, ray.origin, ray.direction, ray.time,
+                      [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked)); });
+    return;
+  }
+  tile.samples.back().alpha = 1;
   tile.samples.back().point = static_cast<uint32_t>(tile.points.size());
   FilmSample film_sample;
   film_sample.offset = from.offset;

@@ -7,6 +7,7 @@
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
 #include "render/frame/sample_scratch.h"
+#include "render/frame/shadow_catcher.h"
 #include "render/gather/gather_point_keys.h"
 #include "render/gather/index_table.h"
 #include "render/gather/light_sharing.h"
@@ -22,8 +23,8 @@ namespace pelage {
 class VisiblePoints {
  public:
   /// Keeps references to its arguments. `samples`: max samples per pixel that share light.
-  VisiblePoints(const FrameScene& scene, const FrameShading& shading, const CameraSamples& camera,
-                const FarLightSamples& far_lights, uint32_t samples);
+  VisiblePoints(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
+                const CameraSamples& camera, const FarLightSamples& far_lights, uint32_t samples);
 
   /// A possible target of a shadow ray.
   struct Candidate {
@@ -66,6 +67,7 @@ class VisiblePoints {
   const FrameScene scene_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
+  const ShadowCatcher catcher_;
   GatherPointKeys keys_;
   DirectLight direct_;
 };

@@ -20,6 +20,11 @@ const Schema<LambertParams>& LambertParams::schema() {
   hide: {model: lambert, color: [0.5, 0.35, 0.3]})");
     s.key("color", &LambertParams::color,
           {.help = "Fraction of the light that is reflected, per channel", .min = 0, .max = 1});
+    s.key("shadow_catcher", &LambertParams::shadow_catcher,
+          {.help = "true: the camera sees the background through the surface, darkened by the shadows of "
+                   "direct light on it; alpha is the fraction of light that is lost, so that the picture can "
+                   "be composited over a photograph. Other rays meet a surface of this colour. No data layer "
+                   "shows it"});
     return s;
   }();
   return table;

@@ -18,6 +18,7 @@ struct LambertParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "lambert";
   Field color{Rgb(0.5f)};
+  bool shadow_catcher = false;  ///< the camera sees only the shadows on it (class ShadowCatcher)
   static const Schema<LambertParams>& schema();
 };
 

@@ -55,6 +55,7 @@ PathTracer::PathTracer(const FrameScene& scene, const Accel& accel, const FilmLa
       layers_(layers),
       shading_(scene, options.balls),
       camera_(scene, accel, layers.splat.has_value()),
+      catcher_(scene, accel),
       walk_(scene, accel, shading_, options) {}
 
 std::unique_ptr<SampleScratch> PathTracer::make_scratch() const { return std::make_unique<Scratch>(); }
@@ -72,12 +73,19 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
   path.time = from.ray.time;
   path.random = from.ray.random;
   path.hit = scratch.closest(RayKind::kCamera, accel_, path.ray);
-  seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time, path.hit.distance,
-              [&](size_t light, const Rgb& radiance) {
-                scratch.sample.radiance += radiance;
-                if (!layers_.empty()) scratch.by_layer[layers_.emitted(light)] += radiance;
-              });
+  const auto see = [&](size_t light, const Rgb& radiance) {
+    scratch.sample.radiance += radiance;
+    if (!layers_.empty()) scratch.by_layer[layers_.emitted(light)] += radiance;
+  };
+  seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time, path.hit.distance, see);
   if (!path.hit) return;
+  if (catcher_.is_catcher(path.hit)) {
+    const Rgb blocked = catcher_.blocked(path.ray, path.hit, path.stream, scratch.direct, scratch);
+    scratch.sample.alpha = luminance(blocked);
+    background_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time,
+                      [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked)); });
+    return;
+  }
   scratch.sample.alpha = 1;
   scratch.sample.surface = shading_.visible_surface(path.ray, path.hit, scratch.thread.hit_geometry);
   const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.hit_geometry);

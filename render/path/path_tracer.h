@@ -7,6 +7,7 @@
 #include "render/film/film.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
+#include "render/frame/shadow_catcher.h"
 #include "render/frame/tile_integrator.h"
 #include "render/path/path_walk.h"
 
@@ -31,6 +32,7 @@ class PathTracer final : public SampleIntegrator {
   const FilmLayers& layers_;
   FrameShading shading_;
   CameraSamples camera_;
+  ShadowCatcher catcher_;
   PathWalk<FilmSink> walk_;
 };
 

@@ -2,6 +2,7 @@
 #include "starter/body_shape.h"
 
 #include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +110,48 @@ TEST(BodyShape, AMeshWithoutAreaIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "dot.obj: its faces have no area");
+  }
+}
+
+/// A ball of quads.
+void add_ball(ControlMesh& mesh, const V3f& center, const V3f& radius) {
+  constexpr int kRows = 24, kColumns = 48;
+  const auto first = static_cast<uint32_t>(mesh.positions.size());
+  for (int i = 0; i <= kRows; ++i) {
+    for (int j = 0; j < kColumns; ++j) {
+      const float polar = 3.14159265f * static_cast<float>(i) / kRows;
+      const float turn = 6.2831853f * static_cast<float>(j) / kColumns;
+      mesh.positions.push_back(center + radius * V3f(std::sin(polar) * std::cos(turn), std::cos(polar),
+                                                     std::sin(polar) * std::sin(turn)));
+    }
+  }
+  for (uint32_t i = 0; i < kRows; ++i) {
+    for (uint32_t j = 0; j < kColumns; ++j) {
+      const uint32_t a = first + i * kColumns + j, b = first + i * kColumns + (j + 1) % kColumns;
+      mesh.face_sizes.push_back(4);
+      for (const uint32_t corner : {a, b, b + kColumns, a + kColumns}) mesh.face_vertices.push_back(corner);
+    }
+  }
+}
+
+TEST(Scalp, IsTheTopAndTheBackOfTheHead) {
+  for (const bool has_body : {false, true}) {
+    ControlMesh mesh;
+    add_ball(mesh, V3f(0, 10, 0), V3f(0.8f, 1.2f, 1));
+    if (has_body) {
+      add_ball(mesh, V3f(0, 8.5f, 0), V3f(0.3f, 1, 0.3f));
+      add_ball(mesh, V3f(0, 6, 0), V3f(2, 2, 1));
+    }
+    const BodyShape shape = body_shape(mesh, "head.obj", AxisDirection{1, 1}, AxisDirection{2, 1});
+    const auto grows = [&](const V3f& at) { return at.y > shape.scalp.height + shape.scalp.slope * at.z; };
+    EXPECT_TRUE(grows(V3f(0, 11.2f, 0))) << "crown";
+    EXPECT_TRUE(grows(V3f(0, 10, -1))) << "back";
+    EXPECT_FALSE(grows(V3f(0, 10, 1))) << "face";
+    EXPECT_FALSE(grows(V3f(0, 9, 0.3f))) << "throat";
+    EXPECT_FALSE(grows(V3f(2, 6, 0))) << "shoulder";
+    const float ball = 12.5f;  // area of the head
+    EXPECT_GT(shape.scalp.area, 0.35f * ball);
+    EXPECT_LT(shape.scalp.area, 0.65f * ball);
   }
 }
 

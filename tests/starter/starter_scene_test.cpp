@@ -56,7 +56,14 @@ TEST(StarterScene, AnimalsHaveTheirHairInProportion) {
   EXPECT_TRUE(has(text, "fur: {preset: fox}")) << text;
   EXPECT_TRUE(has(text, "length: {value: 0.315,")) << text;  // 50 mm on a body of 400 mm
   fox.look = coat_look("human-blond");
-  EXPECT_FALSE(has(starter_scene_text(fox), "- color:"));  // pigments colour it
+  fox.shape.scalp = {0.5f, 2, 20};
+  const std::string head = starter_scene_text(fox);
+  EXPECT_FALSE(has(head, "- color:"));  // pigments colour it
+  // y - z / 2 > 2, where both ramps begin at 0: y - (z + 2) / 2 > 1
+  EXPECT_TRUE(has(head,
+                  "density: {threshold: {add: [{ramp: {along: y, knots: [[0, 0], [3, 3]]}}, "
+                  "{ramp: {along: z, knots: [[-2, 0], [2, -2]]}}]}, at: 1, width: 0.12}"))
+      << head;
 }
 
 TEST(CoatLook, UnknownNamesAreRefusedWithTheNearest) {
