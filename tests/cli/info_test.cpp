@@ -24,7 +24,7 @@ grooms:
   loose: {strands_file: a.hair}
 materials:
   hide: {model: lambert}
-  fur: {model: cone-shell}
+  fur: {model: cone-shell, diffuse: 0.6}
 characters:
   rat:
     parts:

@@ -157,7 +157,7 @@ grooms:
       - comb: {direction: [0, -1, 0.3], lift: 0.4}
       - frizz: {amplitude: 0.02, frequency: 3}
       - width: {root: 0.004, tip: 0.001}
-materials: {hide: {model: lambert}, fur: {model: cone-shell}}
+materials: {hide: {model: lambert}, fur: {model: cone-shell, diffuse: 0.6}}
 characters: {one: {parts: [{skin: ball, material: hide, grooms: {coat: fur}}]}}
 lights:
   sky: {type: environment, radiance: 0.1}

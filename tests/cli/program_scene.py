@@ -18,7 +18,7 @@ grooms:
     operators: [{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.005}}]
 materials:
   hide: {model: lambert, color: 0.4}
-  fur: {model: cone-shell, color: [0.6, 0.4, 0.2]}
+  fur: {model: cone-shell, color: [0.6, 0.4, 0.2], diffuse: 0.6}
 characters: {box: {parts: [{skin: cube, material: hide, grooms: {coat: fur}}]}}
 lights: {sky: {type: environment, radiance: 0.3}}
 render: {samples: 2, bounces: 1}

@@ -25,7 +25,7 @@ camera: {{position: [0, 6, 12], look_at: [0, 0, 0]}}
 image: {{width: 64, height: 36}}
 skins: {{patch: {{mesh: {patch}}}}}
 grooms: {{coat: {groom}}}
-materials: {{m: {{model: lambert}}, f: {{model: cone-shell, color: [0.5, 0.4, 0.3]}}}}
+materials: {{m: {{model: lambert}}, f: {{model: cone-shell, color: [0.5, 0.4, 0.3], diffuse: 0.6}}}}
 characters: {{a: {{parts: [{{skin: patch, material: m, grooms: {{coat: f}}}}]}}}}
 {more}
 lights: {{sky: {{type: environment}}}}

@@ -27,7 +27,7 @@ grooms:
                 {width: {root: 0.004, tip: 0.001}}]
 materials:
   hide: {model: lambert, color: 0.3}
-  fur: {model: cone-shell, color: [0.6, 0.4, 0.2]}
+  fur: {model: cone-shell, color: [0.6, 0.4, 0.2], diffuse: 0.6}
 characters:
   ball: {parts: [{skin: cube, material: hide, grooms: {coat: fur}}]}
 lights:

@@ -64,7 +64,8 @@ class ArchivesTest : public testing::Test {
     files_.write("s.yaml",
                  "pelage: 1\ncamera: {position: [0, 1, 6], look_at: [0, 0.5, 0], fov: 24}\n"
                  "image: {width: 32, height: 24, filter: box}\n"
-                 "materials:\n  hide: {model: lambert, color: 0.4}\n  fur: {model: cone-shell, color: [0.6, "
+                 "materials:\n  hide: {model: lambert, color: 0.4}\n  fur: {model: cone-shell, diffuse: 0.6, "
+                 "color: [0.6, "
                  "0.4, 0.2]}\n"
                  "lights: {sky: {type: environment, radiance: 1}, key: {type: sphere, position: [4, 5, 3], "
                  "intensity: 20}}\n"

@@ -22,7 +22,7 @@ grooms:
     skin: sheet
     strands: 3000
     operators: [{length: {value: 0.1}}, {comb: {direction: [1, 0, 0.3], lift: 0.2}}, {width: {root: 0.02, tip: 0.01}}]
-materials: {hide: {model: lambert}, fur: {model: cone-shell, color: [0.5, 0.3, 0.15]}}
+materials: {hide: {model: lambert}, fur: {model: cone-shell, color: [0.5, 0.3, 0.15], diffuse: 0.6}}
 characters: {animal: {parts: [{skin: sheet, material: hide, grooms: {coat: fur}}]}}
 lights: {key: {type: rectangle, position: [0, -3, 0], look_at: [0, 0, 0], up: [1, 0, 0], size: [1, 1], intensity: 20}}
 render: {samples: 16, bounces: 1}

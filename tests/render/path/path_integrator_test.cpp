@@ -200,7 +200,7 @@ TEST(PathIntegrator, SurfaceDataIsThatOfTheFrontMostSurface) {
   a.motion_keys = 2;
   const size_t one_key = a.points.size();
   for (size_t i = 0; i < one_key; ++i) a.points.push_back(a.points[i] + (i % 4 == 0 ? 0.1f : 0.0f));
-  scene.add_fur(Strands(std::move(a)), ConeShellParams{});
+  scene.add_fur(Strands(std::move(a)), diffuse_fibre(Rgb(0.5f)));
   scene.add_skin(sphere_mesh(0.9f), LambertParams{});
   scene.add_sky(Rgb(1));
   scene.camera.shutter = V2f(0, 0.5f);
@@ -233,7 +233,7 @@ TEST(PathIntegrator, SurfaceDataIsThatOfTheFrontMostSurface) {
 /// axis.
 TEST(PathIntegrator, NormalsOfFibresPointAwayFromTheirAxis) {
   PathScene scene(32, 32);
-  scene.add_fur(one_strand({{0, -2, 0}, {0, 2, 0}}, 0.5f), ConeShellParams{});
+  scene.add_fur(one_strand({{0, -2, 0}, {0, 2, 0}}, 0.5f), diffuse_fibre(Rgb(0.5f)));
   scene.camera.fov = 10.0f;
   const FrameResult result = scene.run();
   EXPECT_LT(result.film.surface(8, 16).normal.x, -0.5f);

@@ -5,6 +5,7 @@
 
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
+#include "tests/support/effort.h"
 
 namespace pelage::reflection_cache_test {
 
@@ -12,7 +13,7 @@ struct CachedScene : GatherScene {
   CachedScene() {
     render.bounces = 5;
     render.gather.cache = true;
-    render.gather.cache_paths = 40;  // enough to fill the cells of so small a picture
+    render.gather.cache_paths = kSanitized ? 16 : 40;  // enough to fill the cells of so small a picture
   }
 };
 
