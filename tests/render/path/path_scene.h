@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "image/texture_library.h"
+#include "render/fibre/fibre_material.h"
 #include "render/light/light_params.h"
 #include "render/render_frame.h"
 #include "render/sampling/sample_stream.h"
@@ -29,8 +30,11 @@ class PathScene {
     camera.position = V3f(0, 0, 10);
   }
 
+  /// Matches the colour of the material once, instead of before every render.
   size_t add_material(MaterialParams material) {
-    materials.push_back(std::move(material));
+    const Workers workers(2);
+    NoProgress progress;
+    materials.push_back(with_tables(std::move(material), {workers, ledger, progress}));
     return materials.size() - 1;
   }
   void add_fur(Strands strands, MaterialParams material) {
