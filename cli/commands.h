@@ -11,6 +11,7 @@ namespace pelage {
 int run_new(const Options& options);
 int run_render(const Options& options);
 int run_grow(const Options& options);
+int run_simulate(const Options& options);
 int run_info(const Options& options);
 int run_merge(const Options& options);
 int run_farm(const Options& options);

@@ -18,6 +18,8 @@ int run(const pelage::Options& options) {
       return pelage::run_render(options);
     case Command::kGrow:
       return pelage::run_grow(options);
+    case Command::kSimulate:
+      return pelage::run_simulate(options);
     case Command::kInfo:
       return pelage::run_info(options);
     case Command::kFarm:

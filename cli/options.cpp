@@ -99,6 +99,22 @@ void add_why(CLI::App& app, Options& options, Texts& texts) {
   add_cache_flags(*why, texts);
 }
 
+void add_simulate(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* simulate = app.add_subcommand(
+      "simulate", "Simulate the motion of coats with `dynamics` and store it for the other commands");
+  add_scene_flags(*simulate, options, texts);
+  simulate->add_option("--frames", texts.frames,
+                       "Frames to make: 1-48. Earlier frames are read or simulated first")
+      ->type_name("FRAMES");
+  simulate->add_flag("--explain", options.explain,
+                     "List everything that determines the motion of each coat, and what has changed");
+  simulate->add_flag("--prune", options.prune,
+                     "Delete stored motion that the scene does not need up to the last of these frames and "
+                     "that no run has used for an hour");
+  add_run_flags(*simulate, options, texts);
+  add_cache_flags(*simulate, texts);
+}
+
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
@@ -231,6 +247,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_view(app, options, texts);
   add_why(app, options, texts);
   add_grow(app, options, texts);
+  add_simulate(app, options, texts);
   for (const LabCommand& command : lab_commands()) app.add_subcommand(command.name, command.help);
   add_info(app, options, texts);
   add_merge(app, options, texts);
@@ -247,6 +264,7 @@ const std::map<std::string, Command>& command_names() {
                                                     {"view", Command::kView},
                                                     {"why", Command::kWhy},
                                                     {"grow", Command::kGrow},
+                                                    {"simulate", Command::kSimulate},
                                                     {"info", Command::kInfo},
                                                     {"merge", Command::kMerge},
                                                     {"farm", Command::kFarm},
@@ -295,7 +313,8 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
   if (!parse_command_line(*app, arguments, out)) return {};
   options.command = command_names().at(arguments[0]);
   interpret(texts, options);
-  constexpr Command kWithCache[] = {Command::kRender, Command::kView, Command::kWhy, Command::kGrow};
+  constexpr Command kWithCache[] = {Command::kRender, Command::kView, Command::kWhy, Command::kGrow,
+                                    Command::kSimulate};
   options.cache = !texts.no_cache && std::find(std::begin(kWithCache), std::end(kWithCache),
                                                options.command) != std::end(kWithCache);
   return options;

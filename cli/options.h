@@ -25,6 +25,7 @@ enum class Command {
   kView,
   kWhy,
   kGrow,
+  kSimulate,
   kInfo,
   kMerge,
   kFarm,
@@ -57,8 +58,8 @@ struct Options : RunOptions {
   bool json = false;             ///< why, render --estimate: whether to print JSON
 
   std::string groom;     ///< grow: the only groom to grow; empty: all grooms
-  bool prune = false;    ///< grow: delete the files in its cache folders that the scene does not need
-  bool explain = false;  ///< grow: report for each operator in a cache whether it was stale, and why
+  bool prune = false;    ///< grow, simulate: delete the files in its cache folders that the scene does not need
+  bool explain = false;  ///< grow, simulate: report what was stale in a cache, and why
   bool lod = false;      ///< grow: write only the strands that remain at the picture's level of detail
 
   std::string frames;  ///< motionblur, stereo: frame numbers to insert in file names with a placeholder

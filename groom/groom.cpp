@@ -14,7 +14,8 @@
 
 namespace pelage {
 
-Groom::Groom(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Groom::Groom(std::shared_ptr<const Impl> impl, const ContentHash& hash)
+    : impl_(std::move(impl)), hash_(hash) {}
 Groom::~Groom() = default;
 
 const FollicleTree& Groom::follicles() const { return impl_->source.follicles(); }
@@ -24,9 +25,19 @@ StrandRepairs Groom::repairs() const {
   return impl_->source.imported ? impl_->source.imported->repairs() : StrandRepairs();
 }
 bool Groom::grows_on_skin() const { return impl_->source.rest != nullptr; }
-const ContentHash& Groom::content_hash() const { return impl_->hash; }
+const ContentHash& Groom::content_hash() const { return hash_; }
+const ContentHash& Groom::identity() const { return impl_->identity; }
+int Groom::points() const { return impl_->source.points; }
+const MovingGuides* Groom::guides() const { return impl_->guides.get(); }
 const ContentStore* Groom::store() const { return impl_->store ? &*impl_->store : nullptr; }
 const GroomCacheReport* Groom::cache_report() const { return impl_->report ? &*impl_->report : nullptr; }
+
+std::shared_ptr<const Groom> Groom::moved(std::shared_ptr<const CoatMotion> motion) const {
+  const ContentHash hash = ContentHasher().add(hash_).add(motion->hash).digest();
+  std::shared_ptr<Groom> coat(new Groom(impl_, hash));
+  coat->motion_ = std::move(motion);
+  return coat;
+}
 
 SurfacePoint Groom::root(size_t follicle, const PosedSkin& pose, size_t key) const {
   const CoatSource& source = impl_->source;
@@ -114,7 +125,14 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
     impl->source.imported.emplace(params, impl->source.rest.get(), owner, job);
     if (impl->source.imported->is_free()) impl->source.rest = nullptr;
   }
-  impl->stack.emplace(with_width(params));
+  OperatorList operators = with_width(params);
+  if (params.dynamics) {
+    impl->guides = std::make_shared<MovingGuides>();
+    impl->follow = follow_place(*params.dynamics, operators);
+    operators.items.insert(operators.items.begin() + static_cast<std::ptrdiff_t>(impl->follow),
+                           follow_item(*params.dynamics, impl->guides));
+  }
+  impl->stack.emplace(operators);
   OperatorStack& stack = *impl->stack;
   if (stack.traits().needs_closest_point && !impl->source.rest) {
     throw Error(ErrorKind::kInput, "groom '" + name + "' uses push_out, but its strands follow no skin");
@@ -132,7 +150,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   ContentHasher hasher;
   hasher.add(identity.whole()).add(params.leaf_size()).add(growth_version::kPose);
   if (params.cache) hasher.add(params.cache->freeze.name).add(growth_version::kFrozen);
-  impl->hash = hasher.digest();
+  impl->identity = identity.whole();
 
   impl->follicle_identity =
       ContentHasher().add(identity.stages()[GroomIdentity::kStrands].hash).add(params.leaf_size()).digest();
@@ -155,10 +173,16 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
               : place());
     }
   }
+  if (params.dynamics) {
+    const auto strands = static_cast<int64_t>(impl->source.follicles().size());
+    const int64_t guides = params.dynamics->guides.value_or(std::clamp<int64_t>(strands / 100, 50, 2000));
+    impl->guides->place(static_cast<size_t>(guides), impl->source.follicles(), *impl->source.rest);
+  }
   if (impl->source.rest) stack.warn_of_missed(*impl->source.rest, impl->source.follicles(), context);
-  const size_t bytes = impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
+  const size_t guide_bytes = impl->guides ? impl->guides->roots.bytes() : 0;
+  const size_t bytes = guide_bytes + impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
   impl->charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
-  return std::shared_ptr<const Groom>(new Groom(std::move(impl)));
+  return std::shared_ptr<const Groom>(new Groom(std::move(impl), hasher.digest()));
 }
 
 FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const PrepareContext& context,

@@ -15,12 +15,14 @@
 #include "geom/strands.h"
 #include "groom/coat/groom_params.h"
 #include "groom/follicles/follicles.h"
+#include "groom/strands/guide_turns.h"
 
 namespace pelage {
 
 class GrowthCache;
 struct FieldSources;
 struct GroomCacheReport;
+struct MovingGuides;
 struct Job;
 
 /// A skin in the pose of a frame. It has one limit surface per motion key, and one tree over the tessellation
@@ -34,6 +36,21 @@ struct PosedSkin {
   /// their file.
   std::span<const M44f> free_transforms;
   float length = 1;  ///< scale of the finished strands about their roots, excluding their widths
+  bool shown = false;  ///< whether this is the pose of a frame, in which simulated coats have moved
+  bool guides_only = false;  ///< whether growth ends where `dynamics` would move the strands
+  /// How the guides of a coat are turned, one per motion key; empty: not at all. Set by Groom::grow().
+  std::span<const GuideTurns> turns = {};
+};
+
+/// The simulated motion of one coat in one frame. Immutable.
+struct CoatMotion {
+  /// At frame - 1/2, at each motion key of the shutter, and at frame + 1/2.
+  std::vector<GuideTurns> keys;
+  ContentHash hash;  ///< of what the motion depends on
+  MemoryCharge charge;
+
+  /// Returns the turns at the keys of a pose of the shutter, or of the whole frame.
+  std::span<const GuideTurns> at_keys(size_t count) const;
 };
 
 /// The strands of a leaf to grow, and how level of detail modifies each of them.
@@ -81,6 +98,8 @@ class Groom {
                                              const Groom* previous = nullptr,
                                              const GrowthCache* growth_cache = nullptr);
   ~Groom();
+  /// Returns the coat as it moves in a frame. It shares everything but the motion.
+  std::shared_ptr<const Groom> moved(std::shared_ptr<const CoatMotion> motion) const;
 
   const FollicleTree& follicles() const;
   StrandRole role() const;
@@ -88,6 +107,12 @@ class Groom {
   /// Hash of everything that shapes the strands, including live operators and the versions of the code.
   /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;
+  /// Hash of everything that shapes the strands, without their division into leaves and their motion.
+  const ContentHash& identity() const;
+  /// Guides of `dynamics`. Null for a groom without it.
+  const MovingGuides* guides() const;
+  /// Number of points of a strand that is not imported.
+  int points() const;
   /// Store for data that is derived from the groom. Null for a groom without a cache.
   const ContentStore* store() const;
   /// State of the cache when the groom was made (groom/cache/cache_report.h). Null for a groom without a
@@ -131,8 +156,11 @@ class Groom {
 
  private:
   struct Impl;
-  explicit Groom(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  Groom(std::shared_ptr<const Impl> impl, const ContentHash& hash);
+
+  std::shared_ptr<const Impl> impl_;
+  std::shared_ptr<const CoatMotion> motion_;  // null: as groomed
+  ContentHash hash_;
 };
 
 }  // namespace pelage

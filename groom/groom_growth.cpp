@@ -30,6 +30,7 @@ void Groom::Impl::stand(StrandBatch& batch, size_t begin, const PosedSkin& skin,
     }
   }
   batch.skin = key < skin.trees.size() ? &skin.trees[key] : nullptr;
+  batch.turns = key < skin.turns.size() ? &skin.turns[key] : nullptr;
 }
 
 namespace {
@@ -60,7 +61,7 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
       }
       stand(*target, at, pose, key);
       carry_to_pose(*target, pose.scale);
-      stack->apply_live(*target);
+      stack->apply(stack->first_live(), end_of(pose), *target);
       writer.write(*target, at - begin, key, pose.length);
     }
     writer.write_roots(*batch, at - begin, source.follicles(), at);
@@ -131,7 +132,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
         strands.shape(block, target->current, pose.scale, *target);
         if (posed || key == 0) scale_radii(*target, pose.scale);
       }
-      stack->apply(live, stack->size(), *target);
+      stack->apply(live, end_of(pose), *target);
       writer.write(*target, at - begin, key, pose.length);
     }
     writer.write_roots(*batch, at - begin, source.follicles(), at);
@@ -152,12 +153,20 @@ StrandWriter::Chosen Groom::Impl::chosen(const KeptStrands& kept, size_t begin) 
   return chosen;
 }
 
-Strands Groom::grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept) const {
+std::span<const GuideTurns> CoatMotion::at_keys(size_t count) const {
+  PELAGE_CHECK(count == keys.size() || count + 2 == keys.size());
+  return std::span(keys).subspan((keys.size() - count) / 2, count);
+}
+
+Strands Groom::grow(size_t leaf, const PosedSkin& groomed, const KeptStrands* kept) const {
   const Impl& g = *impl_;
+  PosedSkin pose = groomed;
+  if (motion_ && groomed.shown) pose.turns = motion_->at_keys(groomed.keys.size());
   const bool on_skin = g.source.rest != nullptr;
   const FollicleTree::Leaf& range = g.source.follicles().leaves()[leaf];
   PELAGE_CHECK(!on_skin || !pose.keys.empty());
-  PELAGE_CHECK(!g.stack->traits().needs_closest_point || pose.trees.size() == key_count(pose, on_skin));
+  PELAGE_CHECK(!g.stack->traits(0, g.end_of(pose)).needs_closest_point ||
+               pose.trees.size() == key_count(pose, on_skin));
 
   const size_t keys = key_count(pose, on_skin);
   const std::optional<AttributeClass> colors = g.stack->traits().colors;
@@ -206,8 +215,10 @@ Strands strand_of(const CoatSource& source, const OperatorStack& stack, size_t f
 
 }  // namespace
 
-std::vector<GrowthStep> Groom::grow_steps(size_t follicle, const PosedSkin& pose) const {
+std::vector<GrowthStep> Groom::grow_steps(size_t follicle, const PosedSkin& groomed) const {
   const Impl& g = *impl_;
+  PosedSkin pose = groomed;
+  if (motion_ && groomed.shown) pose.turns = motion_->at_keys(groomed.keys.size());
   const OperatorStack& stack = *g.stack;
   PELAGE_CHECK(!g.frozen);
   PELAGE_CHECK(!stack.traits().needs_closest_point || !pose.trees.empty());

@@ -9,6 +9,7 @@
 #include "groom/cache/groom_identity.h"
 #include "groom/coat/strand_writer.h"
 #include "groom/groom.h"
+#include "groom/operators/follow.h"
 #include "groom/operators/operator_stack.h"
 
 namespace pelage {
@@ -19,7 +20,9 @@ struct Groom::Impl {
   uint64_t operator_seed = 0;  // seed of the context in which operators are prepared
   CoatSource source;
   std::optional<OperatorStack> stack;
-  ContentHash hash;
+  std::shared_ptr<MovingGuides> guides;  // only with dynamics
+  size_t follow = 0;                     // index of the operator that moves strands, with dynamics
+  ContentHash identity;
   ContentHash follicle_identity;      // equal hashes mean equal follicles in equal leaves
   std::optional<ContentStore> store;  // only with a cache
   std::optional<FrozenCoat> frozen;   // only with a cache
@@ -44,6 +47,7 @@ struct Groom::Impl {
   void stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const;
   StrandWriter::Chosen chosen(const KeptStrands& kept, size_t begin) const;
   StrandReach reach(size_t leaf) const;
+  size_t end_of(const PosedSkin& pose) const { return pose.guides_only ? follow : stack->size(); }
 };
 
 }  // namespace pelage

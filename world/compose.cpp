@@ -14,6 +14,7 @@
 #include "render/light/plate_light.h"
 #include "world/archives.h"
 #include "world/camera_frame.h"
+#include "world/coat_motion.h"
 #include "world/frame_characters.h"
 #include "world/scene_origin.h"
 
@@ -83,6 +84,8 @@ class Composer {
                                   material_index(scene_, part.material), tint});
     for (const auto& groom : part.grooms.items) {
       const auto& coat = assets_.grooms.at(groom.name);
+      const auto shown = moved_coat(scene_, assets_, character, index, groom.name, frame_,
+                                    static_cast<size_t>(posed->motion_keys()), job_);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
       fur.scale = posed->scale();
@@ -94,7 +97,7 @@ class Composer {
         if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
       }
       fur.procedurals.push_back(std::make_unique<FurProcedural>(
-          coat, posed, fur.lod, reduced ? detail_.direction(*coat, skin.rest) : nullptr));
+          shown, posed, fur.lod, reduced ? detail_.direction(*coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);

@@ -116,6 +116,12 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
   return static_cast<int64_t>(bytes);
 }
 
+bool has_dynamics(const FrameCharacter& character, size_t part, const Assets& assets) {
+  const auto& grooms = character.params->parts[part].grooms.items;
+  return std::any_of(grooms.begin(), grooms.end(),
+                     [&](const auto& groom) { return assets.grooms.at(groom.name)->guides() != nullptr; });
+}
+
 bool has_coat(const FrameCharacter& character) {
   return std::any_of(character.params->parts.begin(), character.params->parts.end(),
                      [](const PartParams& part) { return !part.grooms.items.empty(); });
@@ -146,7 +152,8 @@ CharacterPose pose_character(const FrameCharacter& character, size_t part, const
   }
   const Motion motion = motion_of(character, part, assets, origin);
   const double open = frame + camera.shutter.x, length = double(camera.shutter.y) - camera.shutter.x;
-  if (!motion.moves()) {
+  const bool moves = motion.moves() || has_dynamics(character, part, assets);
+  if (!moves) {
     motion.add_pose(frame, pose.shutter);
   } else if (!(length > 0)) {
     motion.add_pose(open, pose.shutter);

@@ -33,11 +33,14 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
 /// Returns whether the character has any groom.
 bool has_coat(const FrameCharacter& character);
 
+/// Returns whether a coat of a part of the character moves by `dynamics`.
+bool has_dynamics(const FrameCharacter& character, size_t part, const Assets& assets);
+
 /// Returns the box of the cage of one part of a character, in world space. For an animal of a crowd, the box
 /// of the cage at rest, moved to its place.
 Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets& assets, double frame);
 
-/// Returns the posed cages of one part of a character. If the part is animated and the shutter is open for
+/// Returns the posed cages of one part of a character. If the part or a coat of it is animated and the shutter is open for
 /// some time, these are one cage per motion key of the camera, and two cages at frame - 1/2 and frame + 1/2.
 /// Otherwise there is one cage. If the part is animated, the result also has its motion to the next frame.
 /// The cages are relative to `origin` (RenderScene::origin).

@@ -5,6 +5,7 @@
 
 #include "procedurals/detail/detail_policy.h"
 #include "world/camera_frame.h"
+#include "world/coat_motion.h"
 #include "world/frame_characters.h"
 
 namespace pelage {
@@ -17,6 +18,7 @@ class FramePoser {
       : scene_(scene),
         assets_(assets),
         frame_(frame),
+        job_(job),
         camera_(camera, frame, scene.image.width, scene.image.height),
         lod_view_(lod_view()),
         detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
@@ -56,6 +58,8 @@ class FramePoser {
         coat.lod = detail_.simplification(*coat.coat, skin.rest.get(), *posed);
         coat.direction = detail_.direction(*coat.coat, skin.rest);
       }
+      coat.coat = moved_coat(scene_, assets_, character, index, groom.name, frame_,
+                             static_cast<size_t>(posed->motion_keys()), job_);
       posed->reserve_for_leaves(*coat.coat, reduced);
       parts.coats.push_back(std::move(coat));
     }
@@ -64,6 +68,7 @@ class FramePoser {
   const SceneDescription& scene_;
   const Assets& assets_;
   const double frame_;
+  const Job& job_;
   const Camera camera_;
   const LodView lod_view_;
   DetailPolicy detail_;

@@ -145,7 +145,18 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   } else if (crowd.tilt > 0) {
     refuse(": `tilt` needs `ground`");
   }
-  for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
+  for (const NameReference& name : crowd.of) {
+    check_name(name, "character", scene.characters, problems);
+    const auto* animal = scene.characters.find(name.name);
+    if (!animal) continue;
+    for (const PartParams& part : animal->value.parts) {
+      for (const auto& groom : part.grooms.items) {
+        const auto* coat = scene.grooms.find(groom.name);
+        if (coat && coat->value.dynamics)
+          refuse(": groom " + quote(groom.name) + " has `dynamics`, which animals of a crowd cannot have");
+      }
+    }
+  }
   const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
 }
@@ -162,6 +173,10 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     check_strands({name, position, groom}, problems);
     if (const std::optional<Problem> problem = check_freeze(groom))
       problems.add(problem->position, problem->message);
+    if (const std::optional<Problem> problem = check_dynamics(groom)) {
+      problems.add(problem->position.file.empty() ? position : problem->position,
+                   "groom " + quote(name) + ": " + problem->message);
+    }
   }
   for (const auto& [name, position, character] : scene.characters.items) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");

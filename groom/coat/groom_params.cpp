@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/nearest_name.h"
+#include "groom/operators/follow.h"
 
 namespace pelage {
 
@@ -24,6 +25,37 @@ std::optional<Problem> check_freeze(const GroomParams& params) {
   if (live == end) return {};
   return Problem{freeze.position, quote(live->name) + " runs on posed strands and cannot be frozen" +
                                       (live + 1 == end ? "" : ", and it comes before " + quote(freeze.name))};
+}
+
+std::optional<Problem> check_dynamics(const GroomParams& params) {
+  if (!params.dynamics) return {};
+  const NameReference& after = params.dynamics->after;
+  if (!params.strands_file.empty() || params.skin.name.empty()) {
+    return Problem{params.strands_file.position,
+                   "`dynamics` moves strands that grow on a skin, not those of a strands_file"};
+  }
+  const auto& items = params.operators.items;
+  std::vector<std::string> names;
+  for (const OperatorList::Item& item : items) names.push_back(item.name);
+  if (!after.name.empty() && std::find(names.begin(), names.end(), after.name) == names.end()) {
+    return Problem{after.position, "this groom has no operator called " + quote(after.name) +
+                                       (names.empty() ? "; it has none" : suggest(after.name, names))};
+  }
+  const auto place = static_cast<std::ptrdiff_t>(follow_place(*params.dynamics, params.operators));
+  const auto gathers =
+      std::find_if(items.begin() + place, items.end(),
+                   [](const auto& item) { return item.prototype->traits().runs_preceding; });
+  if (gathers != items.end()) {
+    return Problem{after.position, quote(gathers->name) +
+                                       " gathers strands around others as groomed and cannot act on what "
+                                       "moved; `after` must name it or an operator behind it"};
+  }
+  if (!params.cache) return {};
+  const auto frozen = std::find(names.rbegin(), names.rend(), params.cache->freeze.name);
+  if (names.rend() - frozen <= place) return {};
+  return Problem{params.cache->freeze.position,
+                 quote(frozen == names.rend() ? "" : *frozen) +
+                     " acts on strands that `dynamics` moved and cannot be frozen"};
 }
 
 const Schema<GroomCacheParams>& GroomCacheParams::schema() {
@@ -152,6 +184,8 @@ const Schema<GroomParams>& GroomParams::schema() {
          .default_text = "8000 or less"});
     s.key("cache", &GroomParams::cache,
           {.help = "Stores the result of frozen operators between runs", .default_text = "none"});
+    s.key("dynamics", &GroomParams::dynamics,
+          {.help = "Moves the coat by the laws of mechanics", .default_text = "strands follow their skin"});
     return s;
   }();
   return table;

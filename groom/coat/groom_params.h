@@ -10,6 +10,7 @@
 #include "groom/coat/attachment.h"
 #include "groom/follicles/follicles.h"
 #include "groom/operators/operator_list.h"
+#include "groom/sim/dynamics_params.h"
 #include "groom/strands/curve_basis_names.h"
 #include "image/field.h"
 
@@ -44,6 +45,7 @@ struct GroomParams {
   OperatorList operators;
   std::optional<int> leaf_strands;
   std::optional<GroomCacheParams> cache;
+  std::optional<DynamicsParams> dynamics;
 
   static constexpr int kMaxLeafStrands = 8000;  ///< default of leaf_strands
   /// From the space of strands_file to the rest space of the skin.
@@ -55,5 +57,7 @@ struct GroomParams {
 /// Checks `cache.freeze`. Returns the problem if it names no operator of the groom, or if this operator or
 /// one before it reads more than rest state. Otherwise returns nothing.
 std::optional<Problem> check_freeze(const GroomParams& params);
+/// Checks whether a groom can have its `dynamics`. Returns the problem, or nothing.
+std::optional<Problem> check_dynamics(const GroomParams& params);
 
 }  // namespace pelage

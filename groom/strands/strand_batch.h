@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "groom/strands/guide_turns.h"
 
 namespace pelage {
 
@@ -62,6 +63,7 @@ struct StrandBatch {
   StrandRow face_u, face_v;                  ///< parameters of the roots in these faces
   StrandRow clump;                           ///< random number of the strand's clump, or of the strand itself
   const ClosestPointTree* skin = nullptr;    ///< the posed skin, for operators that need it
+  const GuideTurns* turns = nullptr;         ///< of the guides of `dynamics`; null: as groomed
   /// Scale of the character: length in the batch's space of a scene unit in operator parameters.
   float scale = 1;
   bool posed = false;  ///< whether the batch's space is a posed space

@@ -28,7 +28,7 @@ struct SkinPose {
   float scale = 1;                       ///< CharacterPose::scale
   float length = 1;                      ///< CharacterPose::length
 
-  PosedSkin skin() const { return {keys, trees, scale, transforms, length}; }
+  PosedSkin skin() const { return {keys, trees, scale, transforms, length, true}; }
   size_t bytes() const;
 };
 

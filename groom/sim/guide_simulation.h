@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "groom/sim/dynamics_params.h"
+#include "groom/sim/rod.h"
+#include "groom/strands/guide_turns.h"
+
+namespace pelage {
+
+class ClosestPointTree;
+struct Job;
+
+/// A guide as it was groomed.
+struct GuideShape {
+  std::vector<V3d> points;  ///< from the root on, in metres, along the axes of the root's frame
+  double radius = 0;        ///< in metres
+};
+
+/// The skin at one time.
+struct SkinMoment {
+  std::vector<RodRoot> roots;  ///< of the guides, in metres; z axis: the normal of the skin
+  /// The skin in scene units. Null: guides may pass it.
+  const ClosestPointTree* skin = nullptr;
+  double meters_per_unit = 1;
+};
+
+/// Simulates the guides of a coat. Each guide is a rod of its own, clamped to the skin, so the result does
+/// not depend on threads. A guide without a finite motion follows the skin rigidly.
+class GuideSimulation {
+ public:
+  /// The guides start as groomed. All have the same number of points. `start` is needed only for the call.
+  GuideSimulation(const DynamicsParams& params, std::vector<GuideShape> shapes, const SkinMoment& start);
+
+  size_t guide_count() const { return shapes_.size(); }
+  size_t segment_count() const { return segments_; }
+
+  /// Moves the skin to `to` within `seconds`, in `steps` equal steps. Contacts with the skin are looked for
+  /// where each guide would be if it followed rigidly, which is on the right side of a thin skin.
+  void advance(const SkinMoment& to, const Wind& wind, double seconds, int steps, const Job& job);
+  /// How far the guides are turned away from their groomed shape.
+  GuideTurns turns() const;
+  /// Number of guides that followed rigidly in the last call of advance().
+  size_t rigid_count() const;
+
+  /// The state in single precision: state_size() numbers.
+  std::vector<float> state() const;
+  size_t state_size() const { return guide_count() * (segments_ * 10 + 6); }
+  /// Continues from a state, on the skin at its time. A run that does this with state() after each frame
+  /// gives the same result as one that was interrupted.
+  void set_state(std::span<const float> state, const SkinMoment& at);
+
+ private:
+  struct Plane {  // in the space of the root
+    V3d point{0}, normal{0};
+  };
+  struct Scratch;
+  void follow_rigidly(size_t guide, const RodRoot& root, double seconds);
+  void find_planes(size_t guide, const SkinMoment& to, Scratch& scratch) const;
+  bool move(size_t guide, const SkinMoment& to, const Wind& wind, double seconds, int steps,
+            Scratch& scratch);
+  void push_outside(size_t guide, const SkinMoment& at, Scratch& scratch);
+
+  const DynamicsParams params_;
+  size_t segments_ = 0;
+  std::vector<GuideShape> shapes_;
+  std::vector<Rod> rods_;                        // empty rods are not made: `always_rigid_`
+  std::vector<std::vector<Imath::Quatd>> frames_;  // of the segments as groomed, in the space of the root
+  std::vector<std::vector<double>> clearance_;   // min height of each node above the skin, in metres
+  std::vector<RodState> states_;
+  std::vector<uint8_t> always_rigid_, rigid_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pelage simulate`: stored motion, what uses it, and what happens without it. Run: simulate_test.py PROGRAM"""
+import sys
+import unittest
+
+from program_scene import ProgramTest, exr_pixels
+
+ProgramTest.PELAGE = sys.argv.pop(1)
+DYNAMICS = ("grooms.coat.dynamics={guides: 40, diameter: 5e-5, drag: 0.001, youngs_modulus: 1e9, preroll: 2, "
+            "wind: {velocity: [4, 0, 0], gusts: 0.5, turbulence: 1}}")
+MOVING = ["--set", DYNAMICS]
+
+
+class Simulate(ProgramTest):
+    def simulate(self, frames, folder, *arguments, **options):
+        return self.run_pelage("simulate", "scene.yaml", "--frames", frames, *MOVING,
+                               "--set", f"grooms.coat.dynamics.directory={folder}", *arguments, **options)
+
+    def motion(self, folder):
+        return {p.name: p.read_bytes() for p in (self.path / folder / "motion").glob("motion-[0-9a-f]*")}
+
+    def pixels(self, frame, *arguments):
+        self.render("-o", "a.exr", "--frames", str(frame), *arguments)
+        return exr_pixels(self.path / "a.exr")
+
+    def test_frames_do_not_depend_on_runs_and_threads(self):
+        self.simulate("1-3", "a", "--threads", "1")
+        self.simulate("1-2", "b", "--threads", "2")
+        out = self.simulate("3", "b", "--threads", "2")[0]
+        self.assertRegex(out, r"^box\.coat: 1 frame simulated from frame 3, ")
+        self.assertEqual(self.motion("a"), self.motion("b"))
+        self.assertEqual(len(self.motion("a")), 5)  # -0, 1 .. 4: two frames of preroll and half a frame behind
+
+    def test_damaged_frames_are_made_again(self):
+        self.simulate("1-2", "a")
+        before = self.motion("a")
+        for name in before:
+            (self.path / "a/motion" / name).write_bytes(before[name][:-9] + b"damaged!!")
+        out, err = self.simulate("1-2", "a")
+        self.assertIn("it is made again", err)
+        self.assertNotIn("found", out)
+        self.assertEqual(self.motion("a"), before)
+        self.assertIn("3 found", self.simulate("1-2", "a")[0])
+
+    def test_pictures_move_and_name_what_is_missing(self):
+        folder = ["--set", "grooms.coat.dynamics.directory=a"]
+        err = self.render("-o", "a.exr", "--frames", "3", *MOVING, *folder, code=2)[1]
+        self.assertIn("coat 'box.coat' has no simulated motion for frame 3; run: pelage simulate scene.yaml --frames 3",
+                      err)
+        self.assertEqual(err.count("\n"), 1)
+        self.simulate("3", "a")
+        moved = self.pixels(3, *MOVING, *folder)
+        self.assertNotEqual(moved, self.pixels(3))
+        self.assertEqual(moved, self.pixels(3, *MOVING, *folder, "--threads", "1", "--set", "render.bounds=none"))
+        # Before the simulation begins, the coat is as groomed.
+        self.assertEqual(self.pixels(-4, *MOVING, *folder, "--set", "camera.shutter=[0, 0]"),
+                         self.pixels(-4, "--set", "camera.shutter=[0, 0]"))
+
+    def test_changes_are_explained_and_old_motion_is_pruned(self):
+        self.simulate("1", "a")
+        out = self.simulate("1", "a", "--explain", "--set", "grooms.coat.dynamics.drag=0.002")[0]
+        self.assertRegex(out, r"drag +0\.002  \(stale: was 0\.001\)")
+        self.assertIn("0 files removed", self.simulate("1", "a", "--prune")[0])  # used within the hour
+
+    def test_mistakes_get_one_line(self):
+        for key, message in {"dynamics={after: lenght}": "no operator called 'lenght'; did you mean 'length'?",
+                             "dynamics={stiffness: 3}": "'stiffness'",
+                             "dynamics={density: 0}": "density"}.items():
+            err = self.run_pelage("simulate", "scene.yaml", "--set", "grooms.coat." + key, code=2)[1]
+            self.assertIn(message, err)
+            self.assertEqual(err.count("\n"), 1, err)
+        err = self.run_pelage("simulate", "scene.yaml", code=2)[1]
+        self.assertEqual(err.count("\n"), 1, err)
+        self.assertIn("no groom of a character has `dynamics`", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/sim/guide_simulation.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "base/job.h"
+#include "geom/closest_point.h"
+#include "tests/geom/cages.h"
+#include "tests/support/effort.h"
+
+namespace pelage {
+namespace guide_simulation_test {
+
+double random(uint64_t i, uint64_t use) { return signed_float(hash64(i, use)); }
+
+/// Guides on a ball of radius 1 cm, as triangles that move and turn with it.
+class GuideSimulationTest : public testing::Test {
+ protected:
+  static constexpr double kUnit = 0.01;
+  static constexpr size_t kGuides = 24, kPoints = 10;
+
+  GuideSimulationTest() { params_.diameter = 1e-4f; }
+
+  static std::vector<GuideShape> shapes() {
+    std::vector<GuideShape> shapes(kGuides);
+    for (size_t g = 0; g < kGuides; ++g) {
+      shapes[g].radius = 5e-5;
+      for (size_t i = 0; i < kPoints; ++i) {  // combed, not below 0.1 mm
+        const double s = static_cast<double>(i) / (kPoints - 1);
+        shapes[g].points.push_back(V3d(0.008 * s, 0.001 * random(g, 7) * s, 0.006 * s * (1.2 - s) + 1e-4 * s));
+      }
+    }
+    return shapes;
+  }
+
+  /// The ball with its middle at `middle` (metres), turned by `angle` about an axis.
+  SkinMoment moment(const V3d& middle, const V3d& axis, double angle) {
+    const Imath::Quatd turn(std::cos(angle / 2), axis.normalized() * std::sin(angle / 2));
+    const ControlMesh ball = bumpy_sphere(12);
+    mesh_ = {};
+    for (const V3f& p : ball.positions) {
+      const V3f at(turned(turn, V3d(p.normalized())) + middle / kUnit);
+      const V3f out(turned(turn, V3d(p.normalized())));
+      mesh_.positions.insert(mesh_.positions.end(), {at.x, at.y, at.z});
+      mesh_.normals.insert(mesh_.normals.end(), {out.x, out.y, out.z});
+    }
+    size_t corner = 0;
+    for (const auto size : ball.face_sizes) {
+      for (size_t k = 2; k < static_cast<size_t>(size); ++k) {
+        for (const size_t v : {size_t(0), k - 1, k})
+          mesh_.triangles.push_back(static_cast<uint32_t>(ball.face_vertices[corner + v]));
+      }
+      corner += static_cast<size_t>(size);
+    }
+    mesh_.faces.resize(mesh_.triangle_count());
+    mesh_.vertex_uv.resize(mesh_.triangles.size());
+    tree_.emplace(mesh_, 0);
+    SkinMoment at{{}, &*tree_, kUnit};
+    for (size_t g = 0; g < kGuides; ++g) {
+      const V3d out = V3d(random(g, 1), random(g, 2), random(g, 3)).normalized();
+      ClosestPoint root;
+      EXPECT_TRUE(tree_->closest_position(V3f(turned(turn, out * 1.2) + middle / kUnit), 9, root));
+      at.roots.push_back({V3d(root.position) * kUnit, turn * smallest_turn(V3d(0, 0, 1), out)});
+    }
+    return at;
+  }
+
+  /// The shaking of the ball up to step i.
+  SkinMoment shaken(uint64_t i) {
+    return moment(V3d(random(i, 11), random(i, 12), random(i, 13)) * 0.01,
+                  V3d(random(i, 14), random(i, 15), random(i, 16)), random(i, 17));
+  }
+
+  DynamicsParams params_;
+  SkinMesh mesh_;
+  std::optional<ClosestPointTree> tree_;
+  Workers workers_{2};
+  MemoryLedger ledger_;
+  NoProgress progress_;
+  Job job_{workers_, ledger_, progress_};
+  WindParams still_air_;
+};
+
+TEST_F(GuideSimulationTest, GuidesStayAsGroomedUnderGravity) {
+  GuideSimulation guides(params_, shapes(), moment(V3d(0), V3d(0, 0, 1), 0));
+  for (int i = 0; i < 24; ++i)
+    guides.advance(moment(V3d(0), V3d(0, 0, 1), 0), Wind(still_air_, i, i / 48.0), 1 / 48.0, 2, job_);
+  EXPECT_EQ(guides.rigid_count(), 0u);
+  const GuideTurns turns = guides.turns();
+  // Half a radius at the tip of 1 cm: 2.5 mrad.
+  for (size_t i = 3; i < turns.size(); i += 4) EXPECT_GT(turns[i], std::cos(0.0025 / 2)) << i;
+}
+
+TEST_F(GuideSimulationTest, ShakenGuidesStayOutsideTheirSkin) {
+  GuideSimulation guides(params_, shapes(), shaken(0));
+  const int shakes = repetitions(1000);
+  for (int i = 1; i <= shakes; ++i) {
+    const SkinMoment at = shaken(static_cast<uint64_t>(i));
+    guides.advance(at, Wind(still_air_, i, i / 48.0), 1 / 48.0, 2, job_);
+    const std::vector<float> state = guides.state();
+    for (size_t g = 0; g < kGuides; ++g) {
+      const float* numbers = &state[g * (10 * (kPoints - 1) + 6)];
+      for (size_t p = 1; p < kPoints; ++p) {
+        const V3d point = at.roots[g].position + V3d(numbers[3 * p], numbers[3 * p + 1], numbers[3 * p + 2]);
+        ASSERT_TRUE(std::isfinite(point.length()));
+        ClosestPoint near;
+        if (tree_->closest(V3f(point / kUnit), 9, near) && near.inside)
+          ASSERT_LT(near.distance * kUnit, 2.5e-5) << "step " << i << ", guide " << g << ", point " << p;
+      }
+    }
+  }
+}
+
+TEST_F(GuideSimulationTest, ResumedRunsAreEqual) {
+  WindParams air;
+  air.velocity = V3f(3, 0, 1);
+  air.turbulence = 2.0f;
+  const auto step = [&](GuideSimulation& guides, int i, int threads) {
+    const Workers workers(threads);
+    const SkinMoment at = shaken(static_cast<uint64_t>(i));
+    guides.advance(at, Wind(air, i, i / 48.0), 1 / 48.0, 2, {workers, ledger_, progress_});
+    const std::vector<float> state = guides.state();
+    guides.set_state(state, at);
+    return state;
+  };
+  GuideSimulation whole(params_, shapes(), shaken(0));
+  step(whole, 1, 1);
+  const std::vector<float> middle = step(whole, 2, 1);
+  const std::vector<float> end = step(whole, 3, 1);
+  GuideSimulation resumed(params_, shapes(), shaken(0));
+  resumed.set_state(middle, shaken(2));
+  EXPECT_EQ(step(resumed, 3, 4), end);
+}
+
+TEST_F(GuideSimulationTest, HostileGuidesFollowRigidly) {
+  std::vector<GuideShape> hostile = shapes();
+  for (V3d& point : hostile[0].points) point = V3d(0);             // no length
+  hostile[1].points[4] = hostile[1].points[3];                      // coinciding points
+  hostile[2].radius = 0;
+  for (const float stiffness : {0.0f, 1e12f}) {
+    params_.youngs_modulus = stiffness;
+    GuideSimulation guides(params_, hostile, moment(V3d(0), V3d(0, 0, 1), 0));
+    for (int i = 0; i < 6; ++i) {
+      // In one frame the skin is 100 units away.
+      guides.advance(moment(V3d(i > 2 ? 1 : 0, 0, 0), V3d(0, 0, 1), i), Wind(still_air_, i, i / 48.0),
+                     1 / 48.0, 2, job_);
+      EXPECT_GE(guides.rigid_count(), 3u);
+      const GuideTurns turns = guides.turns();
+      for (const float x : turns) ASSERT_TRUE(std::isfinite(x));
+      for (size_t k = 3; k < 3 * 4 * (kPoints - 1); k += 4) EXPECT_EQ(turns[k], 1);
+    }
+  }
+}
+
+// Divergence and root mean square of the turbulence, by differences and sums over random places.
+TEST(Wind, TurbulenceHasNoDivergenceAndItsStrength) {
+  WindParams air;
+  air.turbulence = 2.0f;
+  air.eddy_size = 0.05f;
+  const Wind wind(air, 1, 0.3);
+  double square = 0;
+  const int count = repetitions(4000);
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<uint64_t>(i);
+    const V3d x = V3d(random(n, 21), random(n, 22), random(n, 23)) * 3.0;
+    square += wind.at(x).length2() / count;
+    constexpr double kStep = 1e-6;
+    double divergence = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      V3d d(0);
+      d[k] = kStep;
+      divergence += (wind.at(x + d)[k] - wind.at(x - d)[k]) / (2 * kStep);
+    }
+    // Differences of second order: the third derivative is below 1e5 per second and cell.
+    ASSERT_LT(std::fabs(divergence), 1e-3 * 2 / 0.05);
+  }
+  EXPECT_NEAR(std::sqrt(square), 2, 0.1);
+}
+
+}  // namespace guide_simulation_test
+}  // namespace pelage

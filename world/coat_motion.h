@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "groom/sim/motion_store.h"
+#include "world/frame_characters.h"
+
+namespace pelage {
+
+/// A coat with `dynamics` on a character.
+struct MovingCoat {
+  std::string name;  ///< "rat.under"
+  FrameCharacter character;
+  size_t part = 0;
+  std::shared_ptr<const Groom> groom;
+  const DynamicsParams* params = nullptr;
+  int start = 0;  ///< frame at which the simulation begins, as groomed
+  /// Name and value of everything that determines the motion.
+  std::vector<std::pair<std::string, std::string>> inputs;
+  MotionStore store;
+
+  int steps_per_half() const { return (params->substeps + 1) / 2; }
+  /// Number of segments of all guides.
+  size_t segments() const;
+};
+
+/// Returns the coats of a character's part, or of all characters, that have `dynamics`, in the order of the
+/// scene. `scene` must outlive the result. Throws Error (kInput) for missing poses.
+std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets& assets);
+std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Assets& assets,
+                                      const FrameCharacter& character, size_t part, const std::string& groom);
+
+/// An input of a motion that had another value when the coat was simulated last.
+struct MotionChange {
+  std::string name, before;
+};
+
+/// store_inputs() stores the inputs of a motion beside it; changed_inputs() compares them with the stored
+/// ones, and returns nothing if none are stored. They only inform the user. manifest_file(): where they are.
+void store_inputs(const MovingCoat& coat);
+std::vector<MotionChange> changed_inputs(const MovingCoat& coat);
+std::filesystem::path manifest_file(const MovingCoat& coat);
+
+/// Returns the first and the last frame whose stored motion a picture of a frame needs.
+std::pair<int, int> frames_of_motion(const CameraParams& camera, double frame);
+
+/// Returns a coat as it moves in a frame, or the coat itself if it has no `dynamics`. `keys`: number of
+/// motion keys of its skin. Throws Error (kInput) that names the command to run if the motion is missing.
+std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Assets& assets,
+                                        const FrameCharacter& character, size_t part,
+                                        const std::string& groom, double frame, size_t keys, const Job& job);
+
+}  // namespace pelage

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/coat_simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "base/job.h"
+#include "base/memory_budget.h"
+#include "geom/closest_point.h"
+#include "geom/tessellation.h"
+#include "groom/operators/follow.h"
+#include "groom/sim/guide_simulation.h"
+
+namespace pelage {
+namespace {
+
+/// A rotation whose columns are the axes of a follicle frame.
+Imath::Quatd turn_of(const Frame& frame) {
+  const V3d x(frame.tangent), y(frame.bitangent), z(frame.normal);
+  const double trace = x.x + y.y + z.z;
+  Imath::Quatd q;
+  if (trace > 0) {
+    q = {1 + trace, V3d(y.z - z.y, z.x - x.z, x.y - y.x)};
+  } else if (x.x > y.y && x.x > z.z) {
+    q = {y.z - z.y, V3d(1 + x.x - y.y - z.z, x.y + y.x, z.x + x.z)};
+  } else if (y.y > z.z) {
+    q = {z.x - x.z, V3d(x.y + y.x, 1 + y.y - x.x - z.z, y.z + z.y)};
+  } else {
+    q = {x.y - y.x, V3d(z.x + x.z, y.z + z.y, 1 + z.z - x.x - y.y)};
+  }
+  return q.normalize();
+}
+
+/// The triangles of a skin, fine enough for collisions.
+SkinMesh triangles_of(const LimitSurface& skin, const Job& job) {
+  View everywhere;
+  everywhere.focal_pixels = 1e12f;  // so that every edge exceeds the max rate
+  TessellationOptions options;
+  options.max_rate = skin.topology().is_flat() ? 1 : 2;
+  return tessellate(std::span(&skin, 1), everywhere, options, job);
+}
+
+/// The skin of a moving coat at a time, with what its SkinMoment refers to.
+struct PosedMoment {
+  SkinMesh mesh;
+  std::optional<ClosestPointTree> tree;
+  SkinMoment moment;
+};
+
+class CoatSimulation {
+ public:
+  CoatSimulation(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat, const Job& job)
+      : scene_(scene), assets_(assets), coat_(coat), job_(job), unit_(scene.units.meters_per_unit) {
+    const size_t points = coat.segments() + 2 * coat.groom->guides()->follicles.size();
+    charge_ = reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(points * kBytesOfPoint),
+                      "simulating " + coat.name);
+  }
+
+  GuideSimulation start() const {
+    const auto at = posed(coat_.start);
+    return GuideSimulation(*coat_.params, shapes(), at->moment);
+  }
+
+  void resume(int frame, std::span<const float> state, GuideSimulation& guides) const {
+    guides.set_state(state, posed(frame)->moment);
+  }
+
+  FrameMotionData advance(int frame, GuideSimulation& guides) const {
+    FrameMotionData motion;
+    const double half = 0.5 / scene_.units.fps;
+    for (const double time : {frame - 0.5, static_cast<double>(frame)}) {
+      const auto at = posed(time);
+      const Wind wind(coat_.params->wind, time, time / scene_.units.fps);
+      guides.advance(at->moment, wind, half, coat_.steps_per_half(), job_);
+      (time < frame ? motion.half : motion.whole) = guides.turns();
+      if (time < frame) continue;
+      // The next frame starts from what the file holds.
+      motion.state = guides.state();
+      guides.set_state(motion.state, at->moment);
+    }
+    return motion;
+  }
+
+ private:
+  static constexpr size_t kBytesOfPoint = 600;
+
+  std::unique_ptr<PosedMoment> posed(double time) const {
+    CameraParams instant;
+    instant.shutter = V2f(0);
+    const CharacterPose pose = pose_character(coat_.character, coat_.part, assets_, instant, time);
+    const LimitSurface skin(pose.topology, pose.shutter.cages.front());
+    auto at = std::make_unique<PosedMoment>();
+    at->moment.meters_per_unit = unit_;
+    const FollicleTree& follicles = coat_.groom->follicles();
+    for (const uint32_t f : coat_.groom->guides()->follicles) {
+      const RootAddress& root = follicles.root(f);
+      at->moment.roots.push_back({V3d(skin.evaluate(root.face, root.u, root.v).position) * unit_,
+                                  turn_of(skin.frame(root.face, root.u, root.v))});
+    }
+    if (!coat_.params->collide) return at;
+    at->mesh = triangles_of(skin, job_);
+    if (at->mesh.triangle_count() == 0) return at;
+    at->tree.emplace(at->mesh, 0, &job_);
+    at->moment.skin = &*at->tree;
+    return at;
+  }
+
+  /// The guides as groomed, grown on the skin at rest.
+  std::vector<GuideShape> shapes() const {
+    const Groom& groom = *coat_.groom;
+    const LimitSurface& rest = *assets_.skins.at(coat_.character.params->parts[coat_.part].skin.name).rest;
+    PosedSkin pose;
+    pose.keys = {&rest, 1};
+    SkinMesh mesh;
+    std::vector<ClosestPointTree> trees;
+    if (groom.needs_closest_point()) {
+      mesh = triangles_of(rest, job_);
+      trees.emplace_back(mesh, 0, &job_);
+      pose.trees = trees;
+    }
+    const double scale = coat_.character.params->transform.scale.at(coat_.start) * unit_;
+    const std::vector<uint32_t>& guides = groom.guides()->follicles;
+    std::vector<GuideShape> shapes(guides.size());
+    std::vector<std::pair<uint32_t, size_t>> sorted;  // follicle and guide
+    for (size_t g = 0; g < guides.size(); ++g) sorted.emplace_back(guides[g], g);
+    std::sort(sorted.begin(), sorted.end());
+    auto next = sorted.begin();
+    const auto leaves = groom.follicles().leaves();
+    for (size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+      std::vector<uint32_t> own;
+      const auto first = next;
+      for (; next != sorted.end() && next->first < leaves[leaf].end; ++next)
+        own.push_back(next->first - leaves[leaf].begin);
+      if (own.empty()) continue;
+      const std::vector<float> widths(own.size(), 1.0f);
+      const KeptStrands kept{own, widths, {}};
+      pose.guides_only = true;
+      const Strands strands = groom.grow(leaf, pose, &kept);
+      pose.guides_only = false;
+      const Strands whole = groom.grow(leaf, pose, &kept);
+      for (size_t s = 0; s < own.size(); ++s) {
+        const RootAddress& root = groom.follicles().root((first + static_cast<std::ptrdiff_t>(s))->first);
+        const Frame frame = rest.frame(root.face, root.u, root.v);
+        GuideShape& shape = shapes[(first + static_cast<std::ptrdiff_t>(s))->second];
+        const uint32_t begin = strands.first_point(s), end = strands.first_point(s + 1);
+        for (uint32_t p = begin; p < end; ++p)
+          shape.points.push_back(V3d(frame.to_local(strands.point(p) - strands.point(begin))) * scale);
+        shape.radius = coat_.params->diameter ? *coat_.params->diameter / 2
+                                              : whole.radius(begin + (end - begin) / 2) * scale;
+      }
+    }
+    return shapes;
+  }
+
+  const SceneDescription& scene_;
+  const Assets& assets_;
+  const MovingCoat& coat_;
+  const Job& job_;
+  const double unit_;
+  MemoryCharge charge_;
+};
+
+}  // namespace
+
+SimulationReport simulate(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat,
+                          int first, int last, const Job& job, const std::function<void(int)>& done) {
+  SimulationReport report;
+  const auto began = std::chrono::steady_clock::now();
+  first = std::max(first, coat.start + 1);
+  std::vector<int> missing;
+  const WarningSink warn = [&](const std::string& line) { job.progress.warn(line + "; it is made again"); };
+  const WarningSink silent = [](const std::string&) {};
+  for (int frame = first; frame <= last; ++frame) {
+    if (coat.store.read(frame, coat.segments(), false, warn)) {
+      ++report.found;
+    } else {
+      missing.push_back(frame);
+    }
+  }
+  report.begun = coat.start;
+  if (missing.empty()) return report;
+  CoatSimulation simulation(scene, assets, coat, job);
+  GuideSimulation guides = simulation.start();
+  int frame = missing.front() - 1;
+  for (; frame > coat.start; --frame) {
+    job.check_stop();
+    const auto stored = coat.store.read(frame, coat.segments(), true, silent);
+    if (!stored || stored->state.size() != guides.state_size()) continue;
+    simulation.resume(frame, stored->state, guides);
+    break;
+  }
+  report.begun = frame;
+  while (++frame <= missing.back()) {
+    job.check_stop();
+    const FrameMotionData motion = simulation.advance(frame, guides);
+    ++report.simulated;
+    report.most_rigid = std::max(report.most_rigid, guides.rigid_count());
+    report.rigid_frames += guides.rigid_count() > 0;
+    if (!coat.store.write(frame, motion, warn))
+      throw Error(ErrorKind::kFailed, "cannot write the motion of coat '" + coat.name + "'");
+    done(frame);
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return report;
+}
+
+}  // namespace pelage
