@@ -182,7 +182,9 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   const size_t guide_bytes = impl->guides ? impl->guides->roots.bytes() : 0;
   const size_t bytes = guide_bytes + impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
   impl->charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
-  return std::shared_ptr<const Groom>(new Groom(std::move(impl), hasher.digest()));
+  std::shared_ptr<const Groom> groom(new Groom(std::move(impl), hasher.digest()));
+  if (params.dynamics && params.dynamics->mode == DynamicsMode::kKinematic) groom->find_tips();
+  return groom;
 }
 
 FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const PrepareContext& context,

@@ -157,6 +157,8 @@ class Groom {
  private:
   struct Impl;
   Groom(std::shared_ptr<const Impl> impl, const ContentHash& hash);
+  /// Grows the guides at rest and stores their tips.
+  void find_tips() const;
 
   std::shared_ptr<const Impl> impl_;
   std::shared_ptr<const CoatMotion> motion_;  // null: as groomed

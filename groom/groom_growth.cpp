@@ -199,6 +199,36 @@ Strands Groom::grow(size_t leaf, const PosedSkin& groomed, const KeptStrands* ke
   return Strands(std::move(arrays));
 }
 
+void Groom::find_tips() const {
+  const Impl& g = *impl_;
+  MovingGuides& guides = *g.guides;
+  for (size_t i = 0; i < guides.follicles.size(); ++i) guides.tips.push_back(guides.roots.normal(i));
+  // Strands that depend on the posed skin count as straight.
+  if (g.stack->traits(0, g.follow).needs_closest_point) return;
+  PosedSkin rest;
+  rest.keys = {g.source.rest.get(), 1};
+  rest.guides_only = true;
+  std::vector<std::pair<uint32_t, size_t>> sorted;  // follicle and guide
+  for (size_t i = 0; i < guides.follicles.size(); ++i) sorted.emplace_back(guides.follicles[i], i);
+  std::sort(sorted.begin(), sorted.end());
+  auto next = sorted.begin();
+  const auto leaves = follicles().leaves();
+  for (size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    std::vector<uint32_t> own;
+    auto first = next;
+    for (; next != sorted.end() && next->first < leaves[leaf].end; ++next)
+      own.push_back(next->first - leaves[leaf].begin);
+    if (own.empty()) continue;
+    const std::vector<float> widths(own.size(), 1.0f);
+    const KeptStrands kept{own, widths, {}};
+    const Strands strands = grow(leaf, rest, &kept);
+    for (size_t s = 0; s < own.size(); ++s, ++first) {
+      guides.tips[first->second] =
+          strands.point(strands.first_point(s + 1) - 1) - strands.point(strands.first_point(s));
+    }
+  }
+}
+
 namespace {
 
 /// Returns the one strand of a posed batch.

@@ -12,6 +12,7 @@
 #include "base/program_identity.h"
 #include "groom/operators/follow.h"
 #include "world/asset_files.h"
+#include "world/sway.h"
 
 namespace pelage {
 namespace {
@@ -85,8 +86,12 @@ ContentHash inputs_key(const MovingCoat& coat) { return ContentHasher().add(coat
 /// The turns of a coat at the ends of half frames. The half frame with the number h ends at frame h / 2.
 class HalfFrames {
  public:
-  HalfFrames(const SceneDescription& scene, const MovingCoat& coat, double frame, const Job& job)
-      : scene_(scene), coat_(coat), frame_(frame), job_(job) {}
+  HalfFrames(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat, double frame,
+             const Job& job)
+      : scene_(scene), coat_(coat), frame_(frame), job_(job) {
+    if (coat.params->mode == DynamicsMode::kKinematic)
+      sway_.emplace(scene, assets, coat.character, coat.part, *coat.groom, *coat.params);
+  }
 
   GuideTurns at(double time) {
     const double half = std::floor(2 * time);
@@ -107,6 +112,7 @@ class HalfFrames {
   const GuideTurns& read(int half) {
     const auto known = known_.find(half);
     if (known != known_.end()) return known->second;
+    if (sway_) return known_[half] = sway_->at(half);
     if (half <= 2 * coat_.start) {
       GuideTurns still;
       for (size_t i = 0; i < coat_.segments(); ++i) still.insert(still.end(), {0, 0, 0, 1});
@@ -130,6 +136,7 @@ class HalfFrames {
   const MovingCoat& coat_;
   double frame_;
   const Job& job_;
+  std::optional<Sway> sway_;  // only for `mode: kinematic`
   std::map<int, GuideTurns> known_;
 };
 
@@ -153,6 +160,7 @@ std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Asset
                   dynamics.start - dynamics.preroll,
                   {},
                   MotionStore(motion_folder(dynamics), {})};
+  if (dynamics.mode == DynamicsMode::kKinematic) return coat;
   coat.inputs = inputs_of(scene, coat);
   coat.store = MotionStore(motion_folder(dynamics), key_of(coat.name, coat.inputs));
   return coat;
@@ -163,7 +171,8 @@ std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets
   for (const FrameCharacter& character : frame_characters(scene, assets)) {
     for (size_t part = 0; part < character.params->parts.size(); ++part) {
       for (const auto& groom : character.params->parts[part].grooms.items) {
-        if (auto coat = moving_coat(scene, assets, character, part, groom.name)) coats.push_back(*coat);
+        auto coat = moving_coat(scene, assets, character, part, groom.name);
+        if (coat && coat->params->mode == DynamicsMode::kSimulated) coats.push_back(std::move(*coat));
       }
     }
   }
@@ -217,7 +226,7 @@ std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Ass
   motion->charge = reserve(job.ledger, MemoryTag::kGrooms,
                            static_cast<int64_t>((keys + 6) * coat->segments() * 4 * sizeof(float)),
                            "the motion of " + coat->name);
-  HalfFrames half_frames(scene, *coat, frame, job);
+  HalfFrames half_frames(scene, assets, *coat, frame, job);
   const V2f shutter = scene.camera.shutter;
   motion->keys.push_back(half_frames.at(frame - 0.5));
   for (size_t key = 0; key < keys; ++key) {
@@ -225,13 +234,9 @@ std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Ass
     motion->keys.push_back(half_frames.at(frame + shutter.x + t * (double(shutter.y) - shutter.x)));
   }
   motion->keys.push_back(half_frames.at(frame + 0.5));
-  motion->hash = ContentHasher()
-                     .add(key_of(coat->name, coat->inputs))
-                     .add(frame)
-                     .add(shutter.x)
-                     .add(shutter.y)
-                     .add(static_cast<uint64_t>(keys))
-                     .digest();
+  ContentHasher hasher;
+  for (const GuideTurns& turns : motion->keys) hasher.add(std::span<const float>(turns));
+  motion->hash = hasher.digest();
   return still->moved(std::move(motion));
 }
 

@@ -152,8 +152,8 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
     for (const PartParams& part : animal->value.parts) {
       for (const auto& groom : part.grooms.items) {
         const auto* coat = scene.grooms.find(groom.name);
-        if (coat && coat->value.dynamics)
-          refuse(": groom " + quote(groom.name) + " has `dynamics`, which animals of a crowd cannot have");
+        if (coat && coat->value.dynamics && coat->value.dynamics->mode == DynamicsMode::kSimulated)
+          refuse(": groom " + quote(groom.name) + " has `dynamics`; animals of a crowd need `mode: kinematic`");
       }
     }
   }

@@ -24,11 +24,12 @@ struct Turn {
     v += V3f(q[0], q[1], q[2]) * weight;
     w += q[3] * weight;
   }
-  V3f operator()(const V3f& x) const {
+  /// Difference between the turned vector and the vector.
+  V3f change_of(const V3f& x) const {
     const float size2 = v.dot(v) + w * w;
-    if (!(size2 > 0)) return x;
+    if (!(size2 > 0)) return V3f(0);
     const V3f t = v.cross(x) * 2.0f;
-    return x + (t * w + v.cross(t)) * (1 / size2);
+    return (t * w + v.cross(t)) * (1 / size2);
   }
 };
 
@@ -92,7 +93,7 @@ void Follow::apply(StrandBatch& batch) const {
       total += weight[k] = x * x;
     }
     if (!(total > 1e-12f)) std::fill_n(weight.begin(), count, 1.0f);
-    V3f before = batch.offset(0, s), after = before;
+    V3f before = batch.offset(0, s), shift(0);  // a strand whose guides are not turned stays bit for bit
     for (size_t p = 0; p < segments; ++p) {
       Turn turn;
       const float* nearest = batch.turns->data() + 4 * (near[0].index * segments + p);
@@ -103,9 +104,9 @@ void Follow::apply(StrandBatch& batch) const {
       }
       const auto point = static_cast<int>(p + 1);
       const V3f here = batch.offset(point, s);
-      after += turn(here - before);
+      shift += turn.change_of(here - before);
       before = here;
-      batch.set_offset(point, s, after);
+      batch.set_offset(point, s, here + shift);
     }
   }
 }

@@ -18,6 +18,8 @@ namespace pelage {
 struct MovingGuides {
   std::vector<uint32_t> follicles;  ///< indices in the follicle tree, by ascending id
   RootGrid roots;                   ///< rest roots of these follicles
+  /// From root to tip, in rest space; only for `mode: kinematic`.
+  std::vector<V3f> tips;
 
   void place(size_t count, const FollicleTree& coat, const LimitSurface& rest);
 };

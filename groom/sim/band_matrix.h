@@ -38,6 +38,7 @@ class BandMatrix {
       for (double& element : column) element *= inverse;
       column[0] = inverse;  // the diagonal of the factor is stored as its reciprocal
       const double here = right_[j] *= inverse;
+#pragma GCC unroll 10
       for (size_t a = 1; a <= kBand; ++a) {
         Column& other = columns_[j + a];
         const double factor = column[a];

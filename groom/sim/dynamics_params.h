@@ -9,8 +9,15 @@
 
 namespace pelage {
 
+enum class DynamicsMode { kSimulated, kKinematic };
+template <>
+struct EnumNames<DynamicsMode> {
+  static constexpr const char* names[] = {"simulated", "kinematic"};
+};
+
 /// `dynamics:` of a groom. SI units.
 struct DynamicsParams {
+  DynamicsMode mode = DynamicsMode::kSimulated;
   std::optional<int> guides;
   int neighbours = 4;
   NameReference after;
@@ -24,6 +31,8 @@ struct DynamicsParams {
   V3f gravity{0, -9.81f, 0};
   WindParams wind;
   int substeps = 4;
+  float sway_frequency = 3;  ///< Hz
+  float sway_damping = 0.25f;
   int start = 1;
   int preroll = 8;
   AssetPath directory{"cache", {}};

@@ -107,16 +107,20 @@ void GuideSimulation::follow_rigidly(size_t g, const RodRoot& root, double secon
   state.root = root;
 }
 
-void GuideSimulation::find_planes(size_t g, const SkinMoment& to, Scratch& scratch) const {
+void GuideSimulation::find_planes(size_t g, const SkinMoment& to, double seconds, Scratch& scratch) const {
   const RodState& state = states_[g];
   const RodRoot& root = to.roots[g];
   const Quatd turn = root.frame * ~state.root.frame;
   for (size_t i = 1; i <= segments_; ++i) {
     const V3d expected = root.position + turned(turn, state.positions[i] - state.root.position);
     Plane& plane = scratch.planes[i];
+    // The farthest that the node is expected to come nearer to the skin.
+    const V3d falls = state.velocities[i] * seconds - (expected - state.positions[i]);
+    const double limit = std::min(rods_[g].length(), 2 * falls.length() + 0.1 * rods_[g].length());
     SkinPlace below;
-    plane.normal = V3d(0);
-    if (!nearest_place(to, expected, rods_[g].length(), below)) continue;
+    plane = {V3d(0), V3d(0), expected, limit};
+    if (!nearest_place(to, expected, limit, below)) continue;
+    plane.height = below.height;
     plane.normal = turned(~root.frame, below.outward);
     plane.point = turned(~root.frame, below.position + below.outward * clearance_[g][i] - root.position);
   }
@@ -128,7 +132,7 @@ bool GuideSimulation::move(size_t g, const SkinMoment& to, const Wind& wind, dou
   const RodRoot from = state.root;
   scratch.planes.assign(segments_ + 1, {});
   scratch.contacts.assign(to.skin ? segments_ + 1 : 0, {});
-  if (to.skin) find_planes(g, to, scratch);
+  if (to.skin) find_planes(g, to, seconds, scratch);
   scratch.air.clear();
   if (!wind.is_still()) {
     for (const V3d& position : state.positions) scratch.air.push_back(wind.at(position));
@@ -161,6 +165,9 @@ void GuideSimulation::push_outside(size_t g, const SkinMoment& at, Scratch& scra
     const double gap = contact.normal.dot(state.positions[i]) - contact.offset;
     // Only a node just below its plane is in contact: the plane means nothing far from where it was found.
     if (gap < 0 && gap > -rods_[g].length() / 4) raise(i, contact.normal, -gap);
+    // Distance from the skin changes by no more than the node has moved since it was measured.
+    const Plane& plane = scratch.planes[i];
+    if (plane.height - (state.positions[i] - plane.from).length() >= clearance_[g][i]) continue;
     SkinPlace below;
     for (int k = 0; k < 2; ++k) {
       if (!nearest_place(at, state.positions[i], rods_[g].length(), below)) break;

@@ -53,12 +53,14 @@ class GuideSimulation {
   void set_state(std::span<const float> state, const SkinMoment& at);
 
  private:
-  struct Plane {  // in the space of the root
-    V3d point{0}, normal{0};
+  struct Plane {
+    V3d point{0}, normal{0};  // in the space of the root; no normal: the skin is too far away to be met
+    V3d from{0};              // where the skin was looked for
+    double height = 0;        // of this place above the skin, at least
   };
   struct Scratch;
   void follow_rigidly(size_t guide, const RodRoot& root, double seconds);
-  void find_planes(size_t guide, const SkinMoment& to, Scratch& scratch) const;
+  void find_planes(size_t guide, const SkinMoment& to, double seconds, Scratch& scratch) const;
   bool move(size_t guide, const SkinMoment& to, const Wind& wind, double seconds, int steps,
             Scratch& scratch);
   void push_outside(size_t guide, const SkinMoment& at, Scratch& scratch);

@@ -75,7 +75,7 @@ V3d curl_noise(uint64_t seed, const V3d& x) {
                        weight[0][i] * weight[1][j] * slope[2][k]);
     curl += gradient.cross(potential);
   }
-  constexpr double kRms = 0.81;
+  constexpr double kRms = 1.855;
   return curl / kRms;
 }
 

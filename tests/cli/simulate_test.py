@@ -44,7 +44,7 @@ class Simulate(ProgramTest):
 
     def test_pictures_move_and_name_what_is_missing(self):
         folder = ["--set", "grooms.coat.dynamics.directory=a"]
-        err = self.render("-o", "a.exr", "--frames", "3", *MOVING, *folder, code=2)[1]
+        err = self.render("-o", "a.exr", "--frames", "3", *MOVING, *folder, code=3)[1]
         self.assertIn("coat 'box.coat' has no simulated motion for frame 3; run: pelage simulate scene.yaml --frames 3",
                       err)
         self.assertEqual(err.count("\n"), 1)
@@ -56,6 +56,17 @@ class Simulate(ProgramTest):
         self.assertEqual(self.pixels(-4, *MOVING, *folder, "--set", "camera.shutter=[0, 0]"),
                          self.pixels(-4, "--set", "camera.shutter=[0, 0]"))
 
+    def test_kinematic_coats_need_no_simulation(self):
+        kinematic = ["--set", "grooms.coat.dynamics={mode: kinematic, guides: 20}", "--set",
+                     "characters.box.transform.translate={keys: {1: [0, 0, 0], 4: [1, 0, 0]}}"]
+        self.assertNotEqual(self.pixels(4, *kinematic), self.pixels(4, *kinematic[2:]))
+        self.assertEqual(self.pixels(4, *kinematic), self.pixels(4, *kinematic, "--threads", "1"))
+        # Before the box moves.
+        self.assertEqual(self.pixels(-40, *kinematic), self.pixels(-40, *kinematic[2:]))
+        crowd = ["--set", "crowds.herd={of: [box], count: 2, area: {type: disc, radius: 3}}"]
+        err = self.render("-o", "a.exr", *MOVING, *crowd, code=3)[1]
+        self.assertIn("animals of a crowd need `mode: kinematic`", err)
+
     def test_changes_are_explained_and_old_motion_is_pruned(self):
         self.simulate("1", "a")
         out = self.simulate("1", "a", "--explain", "--set", "grooms.coat.dynamics.drag=0.002")[0]
@@ -66,7 +77,7 @@ class Simulate(ProgramTest):
         for key, message in {"dynamics={after: lenght}": "no operator called 'lenght'; did you mean 'length'?",
                              "dynamics={stiffness: 3}": "'stiffness'",
                              "dynamics={density: 0}": "density"}.items():
-            err = self.run_pelage("simulate", "scene.yaml", "--set", "grooms.coat." + key, code=2)[1]
+            err = self.run_pelage("simulate", "scene.yaml", "--set", "grooms.coat." + key, code=3)[1]
             self.assertIn(message, err)
             self.assertEqual(err.count("\n"), 1, err)
         err = self.run_pelage("simulate", "scene.yaml", code=2)[1]

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/sway.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "groom/operators/follow.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kHistory = 24;  // half frames
+/// Tips lag by at most this fraction of the length of their guides.
+constexpr double kMostLag = 0.9;
+
+/// A triangle's own axes, and the length of its first edge. All axes are 0 for a triangle without area.
+struct TriangleSpace {
+  V3d origin, x, y, z;
+  double size;
+
+  TriangleSpace(const V3f& a, const V3f& b, const V3f& c) : origin(a) {
+    const V3d edge = V3d(b) - origin;
+    size = edge.length();
+    x = edge.normalized();
+    z = x.cross(V3d(c) - origin).normalized();
+    y = z.cross(x);
+  }
+  V3d to_world(const V3d& p) const { return origin + (x * p.x + y * p.y + z * p.z) * size; }
+  V3d to_local(const V3d& p) const {
+    const V3d d = p - origin;
+    return size > 0 ? V3d(d.dot(x), d.dot(y), d.dot(z)) / size : V3d(0);
+  }
+};
+
+}  // namespace
+
+Sway::Sway(const SceneDescription& scene, const Assets& assets, const FrameCharacter& character, size_t part,
+           const Groom& groom, const DynamicsParams& params)
+    : assets_(assets),
+      character_(character),
+      part_(part),
+      segments_(static_cast<size_t>(groom.points() - 1)),
+      step_(0.5 / scene.units.fps),
+      frequency_(2 * std::numbers::pi * params.sway_frequency),
+      damping_(params.sway_damping) {
+  const Assets::Skin& skin = assets.skins.at(character.params->parts[part].skin.name);
+  const ControlMesh& cage = skin.cage;
+  std::vector<size_t> first{0};
+  for (const auto size : cage.face_sizes) first.push_back(first.back() + static_cast<size_t>(size));
+  const MovingGuides& guides = *groom.guides();
+  for (size_t g = 0; g < guides.follicles.size(); ++g) {
+    const RootAddress& root = groom.follicles().root(guides.follicles[g]);
+    Foot foot;
+    const size_t corner = first[skin.rest->topology().cage_face(root.face)];
+    for (size_t k = 0; k < 3; ++k) foot.corners[k] = static_cast<uint32_t>(cage.face_vertices[corner + k]);
+    const TriangleSpace space(cage.positions[foot.corners[0]], cage.positions[foot.corners[1]],
+                              cage.positions[foot.corners[2]]);
+    const V3d at(guides.roots.position(g));
+    foot.root = space.to_local(at);
+    foot.tip = space.to_local(at + V3d(guides.tips[g]));
+    feet_.push_back(foot);
+  }
+}
+
+const std::vector<Sway::Place>& Sway::places(int half) {
+  std::vector<Place>& places = known_[half];
+  if (!places.empty() || feet_.empty()) return places;
+  CameraParams instant;
+  instant.shutter = V2f(0);
+  const CharacterPose pose = pose_character(character_, part_, assets_, instant, 0.5 * half);
+  const std::vector<V3f>& cage = pose.shutter.cages.front();
+  places.reserve(feet_.size());
+  for (const Foot& foot : feet_) {
+    const TriangleSpace space(cage[foot.corners[0]], cage[foot.corners[1]], cage[foot.corners[2]]);
+    places.push_back({space.to_world(foot.root), space.to_world(foot.tip)});
+  }
+  return places;
+}
+
+GuideTurns Sway::at(int half) {
+  std::vector<V3d> lags(feet_.size(), V3d(0));
+  const double quiet = frequency_ * std::sqrt(std::max(1e-6, 1 - damping_ * damping_));
+  for (int k = 1; k <= kHistory; ++k) {
+    const std::vector<Place>&after = places(half - k + 1), &here = places(half - k), &before = places(half - k - 1);
+    const double age = k * step_;
+    const double answer = std::exp(-damping_ * frequency_ * age) * std::sin(quiet * age) / quiet;
+    for (size_t g = 0; g < feet_.size(); ++g)
+      lags[g] -= (after[g].tip - here[g].tip * 2.0 + before[g].tip) * (answer / step_);
+  }
+  GuideTurns turns;
+  turns.reserve(4 * feet_.size() * segments_);
+  for (size_t g = 0; g < feet_.size(); ++g) {
+    const Place& place = places(half)[g];
+    const V3d along = place.tip - place.root;
+    const double length = along.length(), lag = lags[g].length();
+    Imath::Quatd full;
+    if (length > 0 && lag > 0 && std::isfinite(lag)) {
+      const V3d to = along + lags[g] * std::min(1.0, kMostLag * length / lag);
+      full = smallest_turn(along / length, to.normalized());
+    }
+    for (size_t p = 0; p < segments_; ++p) {
+      // A rod under an even load turns most near its root.
+      const double s = static_cast<double>(p + 1) / static_cast<double>(segments_), part = s * (2 - s);
+      const Imath::Quatd turn = Imath::Quatd(1 - part + full.r * part, full.v * part).normalized();
+      for (const double c : {turn.v.x, turn.v.y, turn.v.z, turn.r}) turns.push_back(static_cast<float>(c));
+    }
+  }
+  return turns;
+}
+
+}  // namespace pelage
