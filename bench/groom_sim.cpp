@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Time of a frame of 2,000 simulated guides of 16 points on a moving, turning ball, in wind and with collisions, on
-// one core: four steps in two halves, as `pelage simulate` makes them, without reading and posing the skin.
+// Time of a frame of 2,000 simulated guides of 16 points on a moving, turning ball, in wind and with
+// collisions, on one core: four steps in two halves, as `pelage simulate` makes them, without reading and
+// posing the skin.
 #include <cmath>
 #include <optional>
 
@@ -44,8 +45,8 @@ struct Ball {
     tree.emplace(mesh, 0);
     moment = {{}, &*tree, 0.01};
     for (uint64_t g = 0; g < kGuides; ++g) {
-      const V3d out =
-          V3d(signed_float(hash64(g, 1)), signed_float(hash64(g, 2)), signed_float(hash64(g, 3))).normalized();
+      const V3d out = V3d(signed_float(hash64(g, 1)), signed_float(hash64(g, 2)), signed_float(hash64(g, 3)))
+                          .normalized();
       moment.roots.push_back({V3d(x, 0, 0) + out * 0.03, smallest_turn(V3d(0, 0, 1), out)});
     }
   }

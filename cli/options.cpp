@@ -103,8 +103,9 @@ void add_simulate(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* simulate = app.add_subcommand(
       "simulate", "Simulate the motion of coats with `dynamics` and store it for the other commands");
   add_scene_flags(*simulate, options, texts);
-  simulate->add_option("--frames", texts.frames,
-                       "Frames to make: 1-48. Earlier frames are read or simulated first")
+  simulate
+      ->add_option("--frames", texts.frames,
+                   "Frames to make: 1-48. Earlier frames are read or simulated first")
       ->type_name("FRAMES");
   simulate->add_flag("--explain", options.explain,
                      "List everything that determines the motion of each coat, and what has changed");

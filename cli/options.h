@@ -57,8 +57,8 @@ struct Options : RunOptions {
   int pixel_x = 0, pixel_y = 0;  ///< why: the pixel, from the upper left corner
   bool json = false;             ///< why, render --estimate: whether to print JSON
 
-  std::string groom;     ///< grow: the only groom to grow; empty: all grooms
-  bool prune = false;    ///< grow, simulate: delete the files in its cache folders that the scene does not need
+  std::string groom;   ///< grow: the only groom to grow; empty: all grooms
+  bool prune = false;  ///< grow, simulate: delete the files in its cache folders that the scene does not need
   bool explain = false;  ///< grow, simulate: report what was stale in a cache, and why
   bool lod = false;      ///< grow: write only the strands that remain at the picture's level of detail
 

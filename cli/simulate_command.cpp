@@ -30,19 +30,21 @@ void explain_coat(const MovingCoat& coat, const std::vector<MotionChange>& chang
   }
 }
 
-void report(const MovingCoat& coat, const SimulationReport& done, Progress& progress) {
+void report_motion(const MovingCoat& coat, const SimulationReport& done, Progress& progress) {
   const size_t guides = coat.groom->guides()->follicles.size();
   std::cout << fmt::format("{}: {} simulated", coat.name, counted(done.simulated, "frame"));
   if (done.simulated > 0) {
     std::cout << fmt::format(" from frame {}, {} guides, {:.1f} ms per frame", done.begun, guides,
                              1000 * done.seconds / done.simulated);
   }
-  if (done.found > 0) std::cout << fmt::format(", {} found in {}", done.found, coat.store.store().folder().string());
+  if (done.found > 0)
+    std::cout << fmt::format(", {} found in {}", done.found, coat.store.store().folder().string());
   std::cout << "\n";
   if (done.most_rigid > 0) {
-    progress.warn(fmt::format("{}: up to {} of {} guides could not be simulated in {} and followed their skin "
-                              "rigidly; strands of no length have no motion, others may need more `substeps`",
-                              coat.name, done.most_rigid, guides, counted(done.rigid_frames, "frame")));
+    progress.warn(
+        fmt::format("{}: up to {} of {} guides could not be simulated in {} and followed their skin "
+                    "rigidly; strands of no length have no motion, others may need more `substeps`",
+                    coat.name, done.most_rigid, guides, counted(done.rigid_frames, "frame")));
   }
 }
 
@@ -70,7 +72,8 @@ int run_simulate(const Options& options) {
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   const std::vector<MovingCoat> coats = moving_coats(scene, *assets);
   if (coats.empty()) {
-    throw Error(ErrorKind::kArguments, scene.files.front().string() + ": no groom of a character has `dynamics`");
+    throw Error(ErrorKind::kArguments,
+                scene.files.front().string() + ": no groom of a character has `dynamics`");
   }
   const auto [first, last] = wanted_frames(scene);
   for (const MovingCoat& coat : coats) {
@@ -82,7 +85,7 @@ int run_simulate(const Options& options) {
     run.display().end();
     store_inputs(coat);
     run.statistics().stages_s["simulate"] += done.seconds;
-    report(coat, done, run.display());
+    report_motion(coat, done, run.display());
   }
   if (options.prune) prune_motion(coats, last);
   run.finish(options);

@@ -26,7 +26,7 @@ StrandRepairs Groom::repairs() const {
 }
 bool Groom::grows_on_skin() const { return impl_->source.rest != nullptr; }
 const ContentHash& Groom::content_hash() const { return hash_; }
-const ContentHash& Groom::identity() const { return impl_->identity; }
+const ContentHash& Groom::identity() const { return impl_->whole; }
 int Groom::points() const { return impl_->source.points; }
 const MovingGuides* Groom::guides() const { return impl_->guides.get(); }
 const ContentStore* Groom::store() const { return impl_->store ? &*impl_->store : nullptr; }
@@ -150,7 +150,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   ContentHasher hasher;
   hasher.add(identity.whole()).add(params.leaf_size()).add(growth_version::kPose);
   if (params.cache) hasher.add(params.cache->freeze.name).add(growth_version::kFrozen);
-  impl->identity = identity.whole();
+  impl->whole = identity.whole();
 
   impl->follicle_identity =
       ContentHasher().add(identity.stages()[GroomIdentity::kStrands].hash).add(params.leaf_size()).digest();

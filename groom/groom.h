@@ -35,8 +35,8 @@ struct PosedSkin {
   /// For strands without a skin: one transform per motion key. If empty, the strands keep the positions in
   /// their file.
   std::span<const M44f> free_transforms;
-  float length = 1;  ///< scale of the finished strands about their roots, excluding their widths
-  bool shown = false;  ///< whether this is the pose of a frame, in which simulated coats have moved
+  float length = 1;          ///< scale of the finished strands about their roots, excluding their widths
+  bool shown = false;        ///< whether this is the pose of a frame, in which simulated coats have moved
   bool guides_only = false;  ///< whether growth ends where `dynamics` would move the strands
   /// How the guides of a coat are turned, one per motion key; empty: not at all. Set by Groom::grow().
   std::span<const GuideTurns> turns = {};

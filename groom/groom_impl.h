@@ -22,12 +22,12 @@ struct Groom::Impl {
   std::optional<OperatorStack> stack;
   std::shared_ptr<MovingGuides> guides;  // only with dynamics
   size_t follow = 0;                     // index of the operator that moves strands, with dynamics
-  ContentHash identity;
-  ContentHash follicle_identity;      // equal hashes mean equal follicles in equal leaves
-  std::optional<ContentStore> store;  // only with a cache
-  std::optional<FrozenCoat> frozen;   // only with a cache
-  size_t frozen_end = 0;              // `frozen` is the state after the operators [0, frozen_end)
-  bool needs_rest_frames = true;      // whether growing from the cache needs the frames of the rest skin
+  ContentHash whole;                     // GroomIdentity::whole()
+  ContentHash follicle_identity;         // equal hashes mean equal follicles in equal leaves
+  std::optional<ContentStore> store;     // only with a cache
+  std::optional<FrozenCoat> frozen;      // only with a cache
+  size_t frozen_end = 0;                 // `frozen` is the state after the operators [0, frozen_end)
+  bool needs_rest_frames = true;         // whether growing from the cache needs the frames of the rest skin
   // of all roots, if growing from the cache needs positions of the rest skin but no frames
   std::vector<V3f> rest_positions;
   std::optional<GroomCacheReport> report;

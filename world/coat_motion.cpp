@@ -67,7 +67,7 @@ Inputs inputs_of(const SceneDescription& scene, const MovingCoat& coat) {
   return inputs;
 }
 
-ContentHash key_of(const std::string& coat, const Inputs& inputs) {
+ContentHash motion_key(const std::string& coat, const Inputs& inputs) {
   ContentHasher hasher;
   hasher.add(coat);
   for (const auto& [name, value] : inputs) hasher.add(name).add(value);
@@ -123,9 +123,10 @@ class HalfFrames {
     std::optional<FrameMotionData> motion = coat_.store.read(frame, coat_.segments(), false, warn);
     if (!motion) {
       const std::string file = scene_.files.empty() ? "SCENE" : scene_.files.front().string();
-      throw Error(ErrorKind::kInput,
-                  fmt::format("coat '{}' has no simulated motion for frame {}; run: pelage simulate {} --frames {}",
-                              coat_.name, frame_, file, print_frames(scene_.frames)));
+      throw Error(
+          ErrorKind::kInput,
+          fmt::format("coat '{}' has no simulated motion for frame {}; run: pelage simulate {} --frames {}",
+                      coat_.name, frame_, file, print_frames(scene_.frames)));
     }
     known_[2 * frame - 1] = std::move(motion->half);
     known_[2 * frame] = std::move(motion->whole);
@@ -162,7 +163,7 @@ std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Asset
                   MotionStore(motion_folder(dynamics), {})};
   if (dynamics.mode == DynamicsMode::kKinematic) return coat;
   coat.inputs = inputs_of(scene, coat);
-  coat.store = MotionStore(motion_folder(dynamics), key_of(coat.name, coat.inputs));
+  coat.store = MotionStore(motion_folder(dynamics), motion_key(coat.name, coat.inputs));
   return coat;
 }
 
@@ -217,8 +218,7 @@ std::pair<int, int> frames_of_motion(const CameraParams& camera, double frame) {
 
 std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Assets& assets,
                                         const FrameCharacter& character, size_t part,
-                                        const std::string& groom, double frame, size_t keys,
-                                        const Job& job) {
+                                        const std::string& groom, double frame, size_t keys, const Job& job) {
   const auto& still = assets.grooms.at(groom);
   if (!still->guides()) return still;
   const std::optional<MovingCoat> coat = moving_coat(scene, assets, character, part, groom);

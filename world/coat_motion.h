@@ -30,7 +30,8 @@ struct MovingCoat {
 };
 
 /// Returns a coat if it has `dynamics`. moving_coats(): all coats to simulate, in the order of the scene.
-/// A coat with `mode: kinematic` has no inputs and no stored motion. `scene` must outlive the result. Throws Error (kInput) for missing poses.
+/// A coat with `mode: kinematic` has no inputs and no stored motion. `scene` must outlive the result. Throws
+/// Error (kInput) for missing poses.
 std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets& assets);
 std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Assets& assets,
                                       const FrameCharacter& character, size_t part, const std::string& groom);

@@ -9,12 +9,12 @@ namespace pelage {
 
 /// What a run of simulate() did.
 struct SimulationReport {
-  int simulated = 0;    ///< number of frames that were computed
-  int found = 0;        ///< number of wanted frames that were stored before
-  int rigid_frames = 0;  ///< number of frames in which guides followed their skin rigidly
+  int simulated = 0;      ///< number of frames that were computed
+  int found = 0;          ///< number of wanted frames that were stored before
+  int rigid_frames = 0;   ///< number of frames in which guides followed their skin rigidly
   size_t most_rigid = 0;  ///< max number of such guides in a frame
-  int begun = 0;        ///< frame from which the simulation was continued, or its first frame
-  double seconds = 0;   ///< time of the simulation, without reading the scene
+  int begun = 0;          ///< frame from which the simulation was continued, or its first frame
+  double seconds = 0;     ///< time of the simulation, without reading the scene
 };
 
 /// Simulates a coat and stores its motion for the frames first .. last. Frames that are stored are not

@@ -40,10 +40,10 @@ bool has_dynamics(const FrameCharacter& character, size_t part, const Assets& as
 /// of the cage at rest, moved to its place.
 Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets& assets, double frame);
 
-/// Returns the posed cages of one part of a character. If the part or a coat of it is animated and the shutter is open for
-/// some time, these are one cage per motion key of the camera, and two cages at frame - 1/2 and frame + 1/2.
-/// Otherwise there is one cage. If the part is animated, the result also has its motion to the next frame.
-/// The cages are relative to `origin` (RenderScene::origin).
+/// Returns the posed cages of one part of a character. If the part or a coat of it is animated and the
+/// shutter is open for some time, these are one cage per motion key of the camera, and two cages at frame -
+/// 1/2 and frame + 1/2. Otherwise there is one cage. If the part is animated, the result also has its motion
+/// to the next frame. The cages are relative to `origin` (RenderScene::origin).
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame, const V3f& origin = V3f(0));
 

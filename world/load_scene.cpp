@@ -18,6 +18,7 @@
 #include "world/camera_check.h"
 #include "world/camera_frame.h"
 #include "world/complete_scene.h"
+#include "world/dynamics_check.h"
 #include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
 #include "world/presets.h"
@@ -145,18 +146,7 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   } else if (crowd.tilt > 0) {
     refuse(": `tilt` needs `ground`");
   }
-  for (const NameReference& name : crowd.of) {
-    check_name(name, "character", scene.characters, problems);
-    const auto* animal = scene.characters.find(name.name);
-    if (!animal) continue;
-    for (const PartParams& part : animal->value.parts) {
-      for (const auto& groom : part.grooms.items) {
-        const auto* coat = scene.grooms.find(groom.name);
-        if (coat && coat->value.dynamics && coat->value.dynamics->mode == DynamicsMode::kSimulated)
-          refuse(": groom " + quote(groom.name) + " has `dynamics`; animals of a crowd need `mode: kinematic`");
-      }
-    }
-  }
+  for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
   const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
 }
@@ -173,10 +163,6 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     check_strands({name, position, groom}, problems);
     if (const std::optional<Problem> problem = check_freeze(groom))
       problems.add(problem->position, problem->message);
-    if (const std::optional<Problem> problem = check_dynamics(groom)) {
-      problems.add(problem->position.file.empty() ? position : problem->position,
-                   "groom " + quote(name) + ": " + problem->message);
-    }
   }
   for (const auto& [name, position, character] : scene.characters.items) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
@@ -189,6 +175,7 @@ void check_references(const SceneDescription& scene, Problems& problems) {
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
   check_camera_names(scene, problems);
+  check_dynamics(scene, problems);
   for (const auto& archive : scene.archives.items) {
     for (const auto& material : archive.value.materials.items)
       check_name(material.value, "material", scene.materials, problems);

@@ -81,7 +81,8 @@ GuideTurns Sway::at(int half) {
   std::vector<V3d> lags(feet_.size(), V3d(0));
   const double quiet = frequency_ * std::sqrt(std::max(1e-6, 1 - damping_ * damping_));
   for (int k = 1; k <= kHistory; ++k) {
-    const std::vector<Place>&after = places(half - k + 1), &here = places(half - k), &before = places(half - k - 1);
+    const std::vector<Place>&after = places(half - k + 1), &here = places(half - k),
+          &before = places(half - k - 1);
     const double age = k * step_;
     const double answer = std::exp(-damping_ * frequency_ * age) * std::sin(quiet * age) / quiet;
     for (size_t g = 0; g < feet_.size(); ++g)

@@ -42,9 +42,8 @@ std::optional<Problem> check_dynamics(const GroomParams& params) {
                                        (names.empty() ? "; it has none" : suggest(after.name, names))};
   }
   const auto place = static_cast<std::ptrdiff_t>(follow_place(*params.dynamics, params.operators));
-  const auto gathers =
-      std::find_if(items.begin() + place, items.end(),
-                   [](const auto& item) { return item.prototype->traits().runs_preceding; });
+  const auto gathers = std::find_if(items.begin() + place, items.end(),
+                                    [](const auto& item) { return item.prototype->traits().runs_preceding; });
   if (gathers != items.end()) {
     return Problem{after.position, quote(gathers->name) +
                                        " gathers strands around others as groomed and cannot act on what "

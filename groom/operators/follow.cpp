@@ -126,16 +126,15 @@ size_t follow_place(const DynamicsParams& params, const OperatorList& list) {
     return static_cast<size_t>(list.items.rend() - last);
   }
   const auto pushes = [](const OperatorList::Item& item) { return item.name == PushOut::kName; };
-  return static_cast<size_t>(std::find_if(list.items.begin(), list.items.end(), pushes) -
-                             list.items.begin());
+  return static_cast<size_t>(std::find_if(list.items.begin(), list.items.end(), pushes) - list.items.begin());
 }
 
 OperatorList::Item follow_item(const DynamicsParams& params, std::shared_ptr<const MovingGuides> guides) {
   OperatorList::Item item;
   item.name = Follow::kName;
-  item.prototype = std::make_shared<const Follow>(
-      params.neighbours, std::move(guides),
-      params.guides ? std::to_string(*params.guides) : "one in a hundred");
+  item.prototype =
+      std::make_shared<const Follow>(params.neighbours, std::move(guides),
+                                     params.guides ? std::to_string(*params.guides) : "one in a hundred");
   item.clone = [](const Operator& op) -> std::unique_ptr<Operator> {
     return std::make_unique<Follow>(static_cast<const Follow&>(op));
   };

@@ -17,10 +17,11 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
     skin: rat
     strands: 20000
     dynamics: {guides: 400, diameter: 60e-6, wind: {velocity: [3, 0, 0], gusts: 0.5}})");
-    s.key("mode", &DynamicsParams::mode,
-          {.help = "`simulated`: by `pelage simulate`. `kinematic`: guides lag behind their skin and sway like "
-                   "damped springs, as `sway_frequency` and `sway_damping` say; all other keys but `guides`, "
-                   "`neighbours` and `after` have no effect. Needs no simulation, also for crowds"});
+    s.key(
+        "mode", &DynamicsParams::mode,
+        {.help = "`simulated`: by `pelage simulate`. `kinematic`: guides lag behind their skin and sway like "
+                 "damped springs, as `sway_frequency` and `sway_damping` say; all other keys but `guides`, "
+                 "`neighbours` and `after` have no effect. Needs no simulation, also for crowds"});
     s.key("guides", &DynamicsParams::guides,
           {.help = "Number of strands that are simulated: those that level of detail keeps longest",
            .min = 1,
@@ -63,8 +64,7 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
           {.unit = "Hz", .help = "How often a guide sways in a second", .min = 0, .above_min = true});
     s.key("sway_damping", &DynamicsParams::sway_damping,
           {.help = "How fast swaying ends: 0 never, 1 without swaying back", .min = 0, .max = 1});
-    s.key("start", &DynamicsParams::start,
-          {.help = "First frame that is meant to be seen"});
+    s.key("start", &DynamicsParams::start, {.help = "First frame that is meant to be seen"});
     s.key("preroll", &DynamicsParams::preroll,
           {.unit = "frames",
            .help = "The simulation begins this long before `start`, as groomed",

@@ -19,7 +19,7 @@ constexpr int kNewtonSteps = 2;
 /// A step that stretches a segment by more than this has not converged.
 constexpr double kMostStretch = 0.1;
 
-V3d place(const RodRoot& root, const V3d& local) { return root.position + turned(root.frame, local); }
+V3d carried(const RodRoot& root, const V3d& local) { return root.position + turned(root.frame, local); }
 
 RodRoot between(const RodRoot& a, const RodRoot& b, double t) {
   if (t >= 1) return b;
@@ -75,9 +75,9 @@ GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<Guide
     const bool usable = shortest > 1e-4 * longest && longest > 1e-9 && std::isfinite(longest) &&
                         shape.radius > 0 && std::isfinite(shape.radius);
     always_rigid_[g] = !usable;
-    std::vector<V3d> points, straight;
+    std::vector<V3d> points;
     for (size_t i = 0; i <= segments_; ++i) {
-      points.push_back(place(start.roots[g], usable ? shape.points[i] : V3d(0, 0, static_cast<double>(i))));
+      points.push_back(carried(start.roots[g], usable ? shape.points[i] : V3d(0, 0, static_cast<double>(i))));
     }
     Rod rod(points, params.material(usable ? shape.radius : 1), start.roots[g]);
     if (usable) rod.balance(V3d(params.gravity));
@@ -99,8 +99,8 @@ GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<Guide
 void GuideSimulation::follow_rigidly(size_t g, const RodRoot& root, double seconds) {
   RodState& state = states_[g];
   for (size_t i = 0; i <= segments_; ++i) {
-    const V3d was = place(state.root, shapes_[g].points[i]);
-    state.positions[i] = place(root, shapes_[g].points[i]);
+    const V3d was = carried(state.root, shapes_[g].points[i]);
+    state.positions[i] = carried(root, shapes_[g].points[i]);
     state.velocities[i] = (state.positions[i] - was) / seconds;
   }
   for (size_t i = 0; i < segments_; ++i) state.frames[i] = root.frame * frames_[g][i];
@@ -143,10 +143,10 @@ bool GuideSimulation::move(size_t g, const SkinMoment& to, const Wind& wind, dou
     for (size_t i = 1; i < scratch.contacts.size(); ++i) {
       const Plane& plane = scratch.planes[i];
       RodContact& contact = scratch.contacts[i];
-      const V3d point = place(root, plane.point);
+      const V3d point = carried(root, plane.point);
       contact.normal = turned(root.frame, plane.normal);
       contact.offset = contact.normal.dot(point);
-      contact.motion = point - place(state.root, plane.point);
+      contact.motion = point - carried(state.root, plane.point);
     }
     if (!rods_[g].step(root, forces, seconds / steps, kNewtonSteps, state, scratch.rod)) return false;
   }

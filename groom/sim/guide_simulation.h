@@ -68,9 +68,9 @@ class GuideSimulation {
   const DynamicsParams params_;
   size_t segments_ = 0;
   std::vector<GuideShape> shapes_;
-  std::vector<Rod> rods_;                        // empty rods are not made: `always_rigid_`
+  std::vector<Rod> rods_;                          // empty rods are not made: `always_rigid_`
   std::vector<std::vector<Imath::Quatd>> frames_;  // of the segments as groomed, in the space of the root
-  std::vector<std::vector<double>> clearance_;   // min height of each node above the skin, in metres
+  std::vector<std::vector<double>> clearance_;     // min height of each node above the skin, in metres
   std::vector<RodState> states_;
   std::vector<uint8_t> always_rigid_, rigid_;
 };

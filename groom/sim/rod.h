@@ -56,12 +56,12 @@ struct RodForces {
 /// of [Kugelstadt16], 2 Im(conj(q0) q1), at each joint between two segments. Segments resist stretch. Each
 /// joint resists deviation from its rest Darboux vector.
 ///
-/// A step is implicit Euler, solved by a fixed number of Newton iterations on all nodes and twist angles
-/// together. The matrix is the Gauss-Newton approximation of the Hessian, so it is positive definite, and its
-/// band is narrow, so a solution takes time linear in the number of nodes. Forces are gradients of an energy
-/// that does not change when the whole rod moves: momentum is kept. Deviations from the papers: no position
-/// based iteration, because it converges slowly for stiff rods of many segments; the joint at the clamp is
-/// half as long as the others; stiffness is multiplied by 1 + 1 / n^2 for n segments, which makes the small
+/// A step is implicit Euler, solved by a few Newton iterations on all nodes and twist angles together. The
+/// matrix is the Gauss-Newton approximation of the Hessian, so it is positive definite, and its band is
+/// narrow, so a solution takes time linear in the number of nodes. Forces are gradients of an energy that
+/// does not change when the whole rod moves: momentum is kept. Deviations from the papers: no position based
+/// iteration, because it converges slowly for stiff rods of many segments; the joint at the clamp is half as
+/// long as the others; stiffness is multiplied by 1 + 1 / n^2 for n segments, which makes the small
 /// deflection of a cantilever under its weight exact for every n.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
@@ -92,6 +92,7 @@ class Rod {
   void balance(const V3d& gravity);
 
   /// Advances a state by `seconds`. The clamped end moves to `root` and is there at the end of the step.
+  /// Makes at most `iterations` Newton iterations, fewer if the first ones hardly turn a segment.
   /// Returns false, and leaves the state undefined, if the step has no finite result.
   bool step(const RodRoot& root, const RodForces& forces, double seconds, int iterations, RodState& state,
             Workspace& workspace) const;
@@ -116,7 +117,8 @@ class Rod {
   void add_nodes(Assembly& a) const;
   void add_stretch(Assembly& a) const;
   void add_joint(size_t i, Assembly& a) const;
-  bool apply(RodState& state, Workspace& workspace) const;
+  /// Adds the solution. Returns the squared largest angle by which it turns a segment; nothing if not finite.
+  std::optional<double> apply(RodState& state, Workspace& workspace) const;
 
   bool is_clamped_;
   double length_ = 0;

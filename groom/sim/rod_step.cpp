@@ -16,6 +16,8 @@ size_t unknown_of_twist(size_t segment) { return 4 * segment + 3; }
 
 /// Stiffness beyond this many times inertia changes no result and would cost precision.
 constexpr double kStiffestRod = 1e8;
+/// Newton's method ends after an iteration that turns no segment by more than this, in radians.
+constexpr double kConverged = 1e-3;
 /// Stiffness of contacts, as a multiple of inertia.
 constexpr double kContactStiffness = 1e5;
 
@@ -166,7 +168,7 @@ void Rod::add_joint(size_t i, Assembly& a) const {
   }
 }
 
-bool Rod::apply(RodState& state, Workspace& work) const {
+std::optional<double> Rod::apply(RodState& state, Workspace& work) const {
   const auto moved = [&](size_t i) {
     return V3d(work.matrix.right(unknowns_of_node(i)), work.matrix.right(unknowns_of_node(i) + 1),
                work.matrix.right(unknowns_of_node(i) + 2));
@@ -178,20 +180,20 @@ bool Rod::apply(RodState& state, Workspace& work) const {
     const V3d change = (i == 0 && is_clamped_ ? V3d(0) : -moved(i)) + moved(i + 1);
     most = std::max(most, change.length2() / edge.length2());
   }
-  if (!std::isfinite(most)) return false;
+  if (!std::isfinite(most)) return {};
   const double part = most > 1 ? 1 / std::sqrt(most) : 1;
   for (size_t i = is_clamped_ ? 1 : 0; i < state.positions.size(); ++i) state.positions[i] += moved(i) * part;
   for (size_t i = 0; i < segment_count(); ++i) {
     const V3d edge = state.positions[i + 1] - state.positions[i];
     const double length = edge.length();
-    if (!(length > 0)) return false;
+    if (!(length > 0)) return {};
     const V3d along = edge / length;
     const double half = std::clamp(work.matrix.right(unknown_of_twist(i)) * part / 2, -0.5, 0.5);
     const Quatd turn(1, along * std::tan(half));
     state.frames[i] =
         (turn * smallest_turn(third_axis(state.frames[i]), along) * state.frames[i]).normalize();
   }
-  return true;
+  return most;
 }
 
 bool Rod::step(const RodRoot& root, const RodForces& forces, double seconds, int iterations, RodState& state,
@@ -206,7 +208,10 @@ bool Rod::step(const RodRoot& root, const RodForces& forces, double seconds, int
     add_nodes(a);
     add_stretch(a);
     for (size_t i = first_joint(); i < segment_count(); ++i) add_joint(i, a);
-    if (!work.matrix.solve() || !apply(state, work)) return false;
+    if (!work.matrix.solve()) return false;
+    const std::optional<double> turned2 = apply(state, work);
+    if (!turned2) return false;
+    if (*turned2 < kConverged * kConverged) break;
   }
   for (size_t i = 0; i < state.positions.size(); ++i)
     state.velocities[i] = (state.positions[i] - work.start[i]) / seconds;

@@ -39,9 +39,7 @@ struct Smooth {
 };
 
 /// 0 at t = 0 and 1 at t = 1, with continuous second derivatives.
-Smooth smooth_step(double t) {
-  return {t * t * t * (t * (t * 6 - 15) + 10), 30 * t * t * (t - 1) * (t - 1)};
-}
+Smooth smooth_step(double t) { return {t * t * t * (t * (t * 6 - 15) + 10), 30 * t * t * (t - 1) * (t - 1)}; }
 
 /// A whole number of limited size, so that hostile values do not overflow.
 int64_t lattice(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e15, 1e15))); }
@@ -68,8 +66,10 @@ V3d curl_noise(uint64_t seed, const V3d& x) {
   V3d curl(0);
   for (unsigned corner = 0; corner < 8; ++corner) {
     const unsigned i = corner & 1, j = (corner >> 1) & 1, k = corner >> 2;
-    const uint64_t h =
-        hash64(seed, cell[0] + i, cell[1] + j, cell[2] + k, random_use("turbulence"));
+    // One mix per corner: this is the inner loop of windy simulations.
+    const uint64_t h = mix64(seed + static_cast<uint64_t>(cell[0] + i) * 0x9e3779b97f4a7c15ull +
+                             static_cast<uint64_t>(cell[1] + j) * 0xc2b2ae3d27d4eb4full +
+                             static_cast<uint64_t>(cell[2] + k) * 0x165667b19e3779f9ull);
     const V3d potential(signed_float(h), signed_float(h << 21), signed_float(h << 42));
     const V3d gradient(slope[0][i] * weight[1][j] * weight[2][k], weight[0][i] * slope[1][j] * weight[2][k],
                        weight[0][i] * weight[1][j] * slope[2][k]);
@@ -103,7 +103,8 @@ V3d Wind::at(const V3d& place) const {
     const int64_t cell = lattice(age);
     const double s = smooth_step(age - static_cast<double>(cell)).value;
     const V3d x = place / params_.eddy_size;
-    const V3d a = curl_noise(hash64(seed, cell), x), b = curl_noise(hash64(seed, cell + 1), x);
+    const V3d a = curl_noise(hash64(seed, cell, random_use("turbulence")), x),
+              b = curl_noise(hash64(seed, cell + 1, random_use("turbulence")), x);
     // Keeps the root mean square of independent fields.
     velocity += (a * (1 - s) + b * s) * (turbulence_ / std::sqrt((1 - s) * (1 - s) + s * s));
   }

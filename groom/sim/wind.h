@@ -21,8 +21,8 @@ struct WindParams {
 };
 
 /// The velocity of the air of a scene. Gusts travel with the wind. Turbulence is the curl of smooth noise, so
-/// it has no divergence [Bridson07]. A function of place and time alone. Thread safety: may be called from any
-/// thread. `params` must outlive the object.
+/// it has no divergence [Bridson07]. A function of place and time alone. Thread safety: may be called from
+/// any thread. `params` must outlive the object.
 class Wind {
  public:
   /// The wind at a frame. `seconds`: time of this frame.

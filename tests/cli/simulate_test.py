@@ -76,7 +76,7 @@ class Simulate(ProgramTest):
     def test_mistakes_get_one_line(self):
         for key, message in {"dynamics={after: lenght}": "no operator called 'lenght'; did you mean 'length'?",
                              "dynamics={stiffness: 3}": "'stiffness'",
-                             "dynamics={density: 0}": "density"}.items():
+                             "dynamics={density: 0}": "expected a number > 0"}.items():
             err = self.run_pelage("simulate", "scene.yaml", "--set", "grooms.coat." + key, code=3)[1]
             self.assertIn(message, err)
             self.assertEqual(err.count("\n"), 1, err)
