@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -126,6 +127,10 @@ class Groom {
   /// colours: constant, per strand or per point. With `kept`, grows only the strands in `kept`, but costs as
   /// much as growing every strand up to the last of these.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
+
+  using GuideVisit = std::function<void(size_t guide, const Strands& strands, size_t strand)>;
+  /// Grows the guides of `dynamics` in a pose and visits each of them once, in an arbitrary order.
+  void visit_guides(const PosedSkin& pose, const GuideVisit& visit) const;
 
   /// Returns a strand after each step of its growth, in the pose of the first motion
   /// key. Not for a groom with a cache, which keeps only the result of its frozen operators.

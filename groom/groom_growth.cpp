@@ -199,17 +199,10 @@ Strands Groom::grow(size_t leaf, const PosedSkin& groomed, const KeptStrands* ke
   return Strands(std::move(arrays));
 }
 
-void Groom::find_tips() const {
-  const Impl& g = *impl_;
-  MovingGuides& guides = *g.guides;
-  for (size_t i = 0; i < guides.follicles.size(); ++i) guides.tips.push_back(guides.roots.normal(i));
-  // Strands that depend on the posed skin count as straight.
-  if (g.stack->traits(0, g.follow).needs_closest_point) return;
-  PosedSkin rest;
-  rest.keys = {g.source.rest.get(), 1};
-  rest.guides_only = true;
+void Groom::visit_guides(const PosedSkin& pose, const GuideVisit& visit) const {
+  const std::vector<uint32_t>& guides = impl_->guides->follicles;
   std::vector<std::pair<uint32_t, size_t>> sorted;  // follicle and guide
-  for (size_t i = 0; i < guides.follicles.size(); ++i) sorted.emplace_back(guides.follicles[i], i);
+  for (size_t g = 0; g < guides.size(); ++g) sorted.emplace_back(guides[g], g);
   std::sort(sorted.begin(), sorted.end());
   auto next = sorted.begin();
   const auto leaves = follicles().leaves();
@@ -221,12 +214,23 @@ void Groom::find_tips() const {
     if (own.empty()) continue;
     const std::vector<float> widths(own.size(), 1.0f);
     const KeptStrands kept{own, widths, {}};
-    const Strands strands = grow(leaf, rest, &kept);
-    for (size_t s = 0; s < own.size(); ++s, ++first) {
-      guides.tips[first->second] =
-          strands.point(strands.first_point(s + 1) - 1) - strands.point(strands.first_point(s));
-    }
+    const Strands strands = grow(leaf, pose, &kept);
+    for (size_t s = 0; s < own.size(); ++s, ++first) visit(first->second, strands, s);
   }
+}
+
+void Groom::find_tips() const {
+  MovingGuides& guides = *impl_->guides;
+  for (size_t i = 0; i < guides.follicles.size(); ++i) guides.tips.push_back(guides.roots.normal(i));
+  // Strands that depend on the posed skin count as straight.
+  if (impl_->stack->traits(0, impl_->follow).needs_closest_point) return;
+  PosedSkin rest;
+  rest.keys = {impl_->source.rest.get(), 1};
+  rest.guides_only = true;
+  visit_guides(rest, [&](size_t guide, const Strands& strands, size_t s) {
+    guides.tips[guide] =
+        strands.point(strands.first_point(s + 1) - 1) - strands.point(strands.first_point(s));
+  });
 }
 
 namespace {

@@ -125,34 +125,19 @@ class CoatSimulation {
     const double scale = coat_.character.params->transform.scale.at(coat_.start) * unit_;
     const std::vector<uint32_t>& guides = groom.guides()->follicles;
     std::vector<GuideShape> shapes(guides.size());
-    std::vector<std::pair<uint32_t, size_t>> sorted;  // follicle and guide
-    for (size_t g = 0; g < guides.size(); ++g) sorted.emplace_back(guides[g], g);
-    std::sort(sorted.begin(), sorted.end());
-    auto next = sorted.begin();
-    const auto leaves = groom.follicles().leaves();
-    for (size_t leaf = 0; leaf < leaves.size(); ++leaf) {
-      std::vector<uint32_t> own;
-      const auto first = next;
-      for (; next != sorted.end() && next->first < leaves[leaf].end; ++next)
-        own.push_back(next->first - leaves[leaf].begin);
-      if (own.empty()) continue;
-      const std::vector<float> widths(own.size(), 1.0f);
-      const KeptStrands kept{own, widths, {}};
-      pose.guides_only = true;
-      const Strands strands = groom.grow(leaf, pose, &kept);
-      pose.guides_only = false;
-      const Strands whole = groom.grow(leaf, pose, &kept);
-      for (size_t s = 0; s < own.size(); ++s) {
-        const RootAddress& root = groom.follicles().root((first + static_cast<std::ptrdiff_t>(s))->first);
-        const Frame frame = rest.frame(root.face, root.u, root.v);
-        GuideShape& shape = shapes[(first + static_cast<std::ptrdiff_t>(s))->second];
-        const uint32_t begin = strands.first_point(s), end = strands.first_point(s + 1);
-        for (uint32_t p = begin; p < end; ++p)
-          shape.points.push_back(V3d(frame.to_local(strands.point(p) - strands.point(begin))) * scale);
-        shape.radius = coat_.params->diameter ? *coat_.params->diameter / 2
-                                              : whole.radius(begin + (end - begin) / 2) * scale;
-      }
-    }
+    groom.visit_guides(pose, [&](size_t guide, const Strands& strands, size_t s) {
+      const size_t middle = (strands.first_point(s) + strands.first_point(s + 1)) / 2;
+      const std::optional<float>& diameter = coat_.params->diameter;
+      shapes[guide].radius = diameter ? *diameter / 2 : strands.radius(middle) * scale;
+    });
+    pose.guides_only = true;
+    groom.visit_guides(pose, [&](size_t guide, const Strands& strands, size_t s) {
+      const RootAddress& root = groom.follicles().root(guides[guide]);
+      const Frame frame = rest.frame(root.face, root.u, root.v);
+      const uint32_t begin = strands.first_point(s);
+      for (uint32_t p = begin; p < strands.first_point(s + 1); ++p)
+        shapes[guide].points.push_back(V3d(frame.to_local(strands.point(p) - strands.point(begin))) * scale);
+    });
     return shapes;
   }
 
