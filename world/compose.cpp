@@ -15,6 +15,7 @@
 #include "world/archives.h"
 #include "world/camera_frame.h"
 #include "world/frame_characters.h"
+#include "world/light_links.h"
 #include "world/scene_origin.h"
 
 namespace pelage {
@@ -79,8 +80,13 @@ class Composer {
     pose_hasher_.add(posed->hash());
     box.extendBy(posed->bound(BoundSpan::kShutter));
     const size_t own = world_.scene.skins.size();
-    world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
-                                  material_index(scene_, part.material), tint});
+    world_.scene.skins.push_back({character.name + "." + part.skin.name,
+                                  posed,
+                                  skin.rest,
+                                  material_index(scene_, part.material),
+                                  tint,
+                                  {},
+                                  character.prototype + "." + part.skin.name});
     for (const auto& groom : part.grooms.items) {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
@@ -88,6 +94,7 @@ class Composer {
       fur.scale = posed->scale();
       fur.skin = static_cast<uint32_t>(own);
       fur.follows = posed;
+      fur.prototype = character.prototype + "." + groom.name;
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
@@ -147,13 +154,26 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
     if (auto* sky = std::get_if<EnvironmentLightParams>(&exposed); sky && !scene.image.background.empty())
       sky->visible = false;
     if (exposure != 1) std::visit([&](auto& light) { light.radiance *= exposure; }, exposed);
-    lights.push_back(make_light(name, exposed, frame, assets.textures, job.ledger, origin));
+    try {
+      lights.push_back(make_light(name, exposed, frame, assets.textures, job.ledger, origin));
+    } catch (const Error& error) {
+      std::vector<Problem> problems = error.problems();
+      for (Problem& problem : problems) {
+        if (problem.position.file.empty()) problem.position = position;
+      }
+      throw Error(error.kind(), std::move(problems));
+    }
   }
   if (const AssetPath& plate = scene.image.background; !plate.empty()) {
     lights.push_back(
         std::make_unique<PlateLight>(kBackground, assets.textures.load(plate), camera, scene.image.width));
   }
   return LightSet(std::move(lights));
+}
+
+void link_lights(const SceneDescription& scene, RenderScene& frame) {
+  for (size_t i = 0; i < scene.lights.items.size(); ++i)
+    link_light(scene.lights.items[i].value, frame.fur, frame.skins, frame.lights.light(i));
 }
 
 }  // namespace
@@ -186,6 +206,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
     load_archive(scene, archive.name, archive.value, frame, job, origin, assets.archives[archive.name]);
     add_archive(scene, archive.name, archive.value, assets.archives.at(archive.name), job, world);
   }
+  link_lights(scene, world.scene);
   return world;
 }
 
@@ -197,6 +218,7 @@ void recompose_sampling(const SceneDescription& scene, Assets& assets, double fr
   assets.materials = std::move(materials);
   world.scene.materials = assets.materials;
   world.scene.lights = std::move(lights);
+  link_lights(scene, world.scene);
   world.scene.image = scene.image;
   world.scene.render = scene.render;
 }

@@ -17,7 +17,8 @@ namespace pelage {
 struct LeavingRay {
   V3f origin{0};
   V3f direction{0};
-  float far = 0;  ///< length
+  float far = 0;                     ///< length
+  const PartSet* casters = nullptr;  ///< as Ray::casters
 };
 
 /// A point of a strand or skin that a camera sample sees, with one ray in a direction sampled from its lobes.
@@ -39,6 +40,7 @@ struct VisiblePoint {
     result.origin = leaving.origin;
     result.direction = leaving.direction;
     result.far = leaving.far;
+    result.casters = leaving.casters;
     result.time = time;
     result.start = start;
     return result;

@@ -31,7 +31,8 @@ inline float power_weight(float pdf, float other) {
 
 /// Techniques that estimate direct light: light sampling and lobe sampling, combined by the power heuristic
 /// (kBoth), or one of them alone. Every choice converges to the same picture. One technique alone is for
-/// tests and comparisons.
+/// tests and comparisons; lobe sampling does not find lights in which some parts cast no shadows
+/// (Light::casters()).
 enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 
 /// A point on a light that a shadow ray may be traced to.
@@ -42,6 +43,7 @@ struct LightPoint {
   FibreValue value;     ///< scattering of light from this direction
   Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
   float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
+  const PartSet* casters = nullptr;  ///< Light::casters()
 };
 
 /// Memory of one thread, reused for each scatter point.
@@ -84,7 +86,8 @@ class DirectLight {
   /// Computes the probability of selecting each light at a scatter point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
     lights_.prepare(
-        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.choices);
+        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; },
+        [&](const Light& light) { return point.receives(light); }, scratch.choices);
   }
 
   /// Samples candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
@@ -154,23 +157,26 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
                                                    DirectLightScratch& scratch) const {
   const LightSet::Choice choice = lights_.choose(scratch.choices, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
+  const Light& light = lights_.light(choice.light);
+  if (!point.receives(light)) return std::nullopt;
   const V2f place(choice.remapped, u.y);
-  const auto seen = far_ ? far_->sample(choice.light, point.position(), place)
-                         : lights_.light(choice.light).sample(point.position(), place);
+  const auto seen =
+      far_ ? far_->sample(choice.light, point.position(), place) : light.sample(point.position(), place);
   if (!seen || !(seen->pdf > 0)) return std::nullopt;
   const auto sample = point.exit().toward(*seen);
   if (!sample) return std::nullopt;
-  if (point.is_shadowed(sample->direction, sample->distance * kJustBefore)) {
+  if (!light.casters() && point.is_shadowed(sample->direction, sample->distance * kJustBefore)) {
     ++scratch.proved;
     return std::nullopt;
   }
   LightPoint result;
   result.light = choice.light;
+  result.casters = light.casters();
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
   const float pdf = choice.probability * sample->pdf;
-  const float weight = techniques_ == DirectTechniques::kBoth
+  const float weight = techniques_ == DirectTechniques::kBoth && !light.casters()
                            ? power_weight(competing_pdf(pdf, sample->distance), lobe_pdf(result.value))
                            : 1.0f;
   result.arriving = sample->radiance * (weight / pdf);
@@ -199,6 +205,7 @@ void DirectLight::find_lights(const ScatterPoint& point, const V3f& direction, f
   const V3f from = point.exit().origin(direction);
   lights_.on_ray(from, direction, distance, [&](size_t i) {
     const Light& light = lights_.light(i);
+    if (light.casters() || !point.receives(light)) return;
     const auto hit = light.intersect(from, direction);
     if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) return;
     float weight = 1;

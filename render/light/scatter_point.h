@@ -62,6 +62,10 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
+  /// The coat or skin of the point, for lights that do not illuminate all; empty: every light illuminates it.
+  void set_part(const FramePart& part) { part_ = part; }
+  bool receives(const Light& light) const { return !part_ || light.illuminates(*part_); }
+
   /// Stores the ball inside the skin below this point.
   void set_shadow(const SkinShadow& shadow) { shadow_ = shadow; }
   /// Sets the plane of the skin at the root of a fibre, for points near the root: start() is not below it.
@@ -116,6 +120,7 @@ class ScatterPoint {
   V3f skin_normal_{0};     // zero: far from the root
   float skin_height_ = 1;  // of the skin above the axis, along the normal
   SkinShadow shadow_;
+  std::optional<FramePart> part_;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

@@ -198,6 +198,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
+    ray.casters = to.casters;
     sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
 }

@@ -32,6 +32,8 @@ struct FurPart {
   std::optional<uint32_t> skin = {};       ///< index in RenderScene::skins of the skin below the strands
   /// The skin whose motion from frame to frame the strands follow; null: only their motion keys are known.
   std::shared_ptr<const DeferredSkin> follows = {};
+  /// Name of the coat that this one copies, such as "rat.under" for "colony.17.under"; its own otherwise.
+  std::string prototype = {};
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.
@@ -43,6 +45,7 @@ struct SkinPart {
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies the colour of the skin
   std::optional<Simplification> lod = {};  ///< of the densest coat on the skin; empty: not reduced
+  std::string prototype = {};              ///< as FurPart::prototype
 };
 
 /// Everything that a renderer needs for one frame. Positions are in world space, relative to `origin`.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -80,6 +81,7 @@ class PathScene {
                       Camera(camera, 1, image.width, image.height),
                       image,
                       render};
+    if (link) link(scene.lights);
     FrameResult result = render_frame(scene, {workers, ledger, progress}, options);
     statistics += result.statistics;
     fur = std::move(scene.fur);
@@ -93,6 +95,7 @@ class PathScene {
   std::vector<SkinPart> skins;
   std::vector<MaterialParams> materials;
   std::vector<std::pair<std::string, LightParams>> lights;
+  std::function<void(LightSet&)> link;  ///< calls Light::link(); may be empty
   MemoryLedger ledger;
   FrameStatistics statistics;  ///< of all runs
 };
