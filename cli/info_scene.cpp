@@ -82,6 +82,7 @@ std::string describe_item(const LightParams& light) {
       light);
   return text;
 }
+std::string describe_item(const MagnetParams& magnet) { return kind_of(magnet); }
 std::string describe_item(const MaterialParams& material) { return kind_of(material); }
 
 template <class T>
@@ -104,6 +105,7 @@ std::string describe_scene(const SceneDescription& scene) {
   text += section("characters", scene.characters);
   if (!scene.crowds.items.empty()) text += section("crowds", scene.crowds);
   if (!scene.archives.items.empty()) text += section("archives", scene.archives);
+  if (!scene.magnets.items.empty()) text += section("magnets", scene.magnets);
   return text + section("lights", scene.lights);
 }
 

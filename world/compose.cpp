@@ -145,6 +145,28 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   return header;
 }
 
+/// Makes something that the scene names at a position. Errors without a position get this one.
+template <class Make>
+auto made_at(const SourcePosition& position, const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.position.file.empty()) problem.position = position;
+    }
+    throw Error(error.kind(), std::move(problems));
+  }
+}
+
+MagnetSet make_magnets(const SceneDescription& scene, double frame, const V3f& origin) {
+  std::vector<MagnetSet::Magnet> magnets;
+  for (const auto& item : scene.magnets.items)
+    magnets.push_back(
+        made_at(item.position, [&] { return make_magnet(item.name, item.value, frame, origin); }));
+  return MagnetSet(std::move(magnets));
+}
+
 LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
                      const V3f& origin, const Camera& camera) {
   std::vector<std::unique_ptr<Light>> lights;
@@ -154,15 +176,9 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
     if (auto* sky = std::get_if<EnvironmentLightParams>(&exposed); sky && !scene.image.background.empty())
       sky->visible = false;
     if (exposure != 1) std::visit([&](auto& light) { light.radiance *= exposure; }, exposed);
-    try {
-      lights.push_back(make_light(name, exposed, frame, assets.textures, job.ledger, origin));
-    } catch (const Error& error) {
-      std::vector<Problem> problems = error.problems();
-      for (Problem& problem : problems) {
-        if (problem.position.file.empty()) problem.position = position;
-      }
-      throw Error(error.kind(), std::move(problems));
-    }
+    lights.push_back(made_at(position, [&, &of = name] {
+      return make_light(of, exposed, frame, assets.textures, job.ledger, origin);
+    }));
   }
   if (const AssetPath& plate = scene.image.background; !plate.empty()) {
     lights.push_back(
@@ -193,7 +209,8 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
                view,
                scene.image,
                scene.render,
-               origin},
+               origin,
+               make_magnets(scene, frame, origin)},
               0,
               0,
               0,
@@ -218,6 +235,7 @@ void recompose_sampling(const SceneDescription& scene, Assets& assets, double fr
   assets.materials = std::move(materials);
   world.scene.materials = assets.materials;
   world.scene.lights = std::move(lights);
+  world.scene.magnets = make_magnets(scene, frame, world.scene.origin);
   link_lights(scene, world.scene);
   world.scene.image = scene.image;
   world.scene.render = scene.render;

@@ -13,6 +13,7 @@
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_set.h"
+#include "render/light/magnet_set.h"
 #include "render/material/material.h"
 #include "render/scene/render_params.h"
 
@@ -60,6 +61,7 @@ struct RenderScene {
   /// World position of the point (0, 0, 0). Near the coats if these are so far from the world's origin that
   /// floats would not resolve their strands; otherwise 0.
   V3f origin{0};
+  MagnetSet magnets = {};
 };
 
 }  // namespace pelage

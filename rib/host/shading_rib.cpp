@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/value_readers.h"
 #include "render/sampling/warp.h"
@@ -183,7 +184,13 @@ void write_material(RibWriter& rib, const SceneDescription& scene, const Value& 
 void write_lights(RibWriter& rib, const SceneDescription& scene, const Value& document, double frame) {
   int32_t handle = 0;
   for (const auto& [name, position, light] : scene.lights.items) {
-    const Value& block = *document.find("lights")->find(name);
+    // A RIB file has other names for the parts that lights are linked to, so it has no links.
+    const Value& written = *document.find("lights")->find(name);
+    std::vector<Value::Entry> entries = written.entries();
+    std::erase_if(entries, [](const Value::Entry& entry) {
+      return entry.key == "illuminates" || entry.key == "shadowed_by";
+    });
+    const Value block = Value::map(written.position(), std::move(entries));
     std::visit(LightWriter{rib, name, block, frame, ++handle}, light);
   }
 }
