@@ -35,6 +35,12 @@ inline float power_weight(float pdf, float other) {
 /// (Light::casters()).
 enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 
+/// How lights are selected: by Light::importance() alone, which is solid angle * mean radiance ["Rendering
+/// Fur in Life of Pi", stochastic light selection], or also by the scattering towards them
+/// (LightSet::probabilities()). The probability is part of the density for MIS in both cases, so the mean is
+/// the same. The first is for tests and comparisons.
+enum class LightChoice { kImportance, kLobes };
+
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
@@ -70,8 +76,12 @@ class DirectLight {
   /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `far`: where
   /// points on lights come from; null: Light::sample().
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
-              const FarLightSamples* far = nullptr)
-      : lights_(lights), far_(far), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
+              const FarLightSamples* far = nullptr, LightChoice choice = LightChoice::kLobes)
+      : lights_(lights),
+        far_(far),
+        rays_(static_cast<uint32_t>(rays)),
+        techniques_(techniques),
+        choice_(choice) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
   /// surface touching the light does not block it.
@@ -85,8 +95,10 @@ class DirectLight {
 
   /// Computes the probability of selecting each light at a scatter point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
+    constexpr float kUniform = 1 / (4 * kPi);
     lights_.prepare(
-        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; },
+        point.position(),
+        [&](const V3f& wi) { return choice_ == LightChoice::kLobes ? point.eval(wi).pdf : kUniform; },
         [&](const Light& light) { return point.receives(light); }, scratch.choices);
   }
 
@@ -134,6 +146,7 @@ class DirectLight {
   const FarLightSamples* const far_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
+  const LightChoice choice_;
 };
 
 template <class LobePdf>

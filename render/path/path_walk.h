@@ -68,7 +68,8 @@ class PathWalk {
         accel_(accel),
         shading_(shading),
         options_(options),
-        direct_(scene.lights, scene.render.light_samples, options.direct, options.far_lights) {}
+        direct_(scene.lights, scene.render.light_samples, options.direct, options.far_lights,
+                options.choice) {}
 
   /// Follows a path from its first vertex to its end. `first`: position and scattering of the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,

@@ -56,7 +56,7 @@ TEST(MagnetSet, PointsThatAttractPassChiSquare) {
   }
 }
 
-/// Fur in a closed sphere of skin with a small lamp, seen from inside: most light is indirect.
+/// Fur in a closed sphere of skin with a lamp, seen from inside: most light is indirect.
 std::vector<double> brightness(Integrator integrator, bool attract) {
   std::vector<double> means;
   for (int64_t seed = 0; seed < 4; ++seed) {
@@ -71,8 +71,8 @@ std::vector<double> brightness(Integrator integrator, bool attract) {
     scene.add_skin(sphere_mesh(12), wall);
     scene.add_fur(furball(1000, 0.6f, 0.02f), diffuse_fibre(Rgb(0.8f)));
     PointLightParams lamp;
-    lamp.position = V3f(7, 0, 0);
-    lamp.radius = 0.2f;
+    lamp.position = V3f(0, 4, 4);
+    lamp.radius = 0.5f;
     lamp.power = 2000;
     scene.add_light("lamp", lamp);
     if (attract) {

@@ -197,7 +197,8 @@ TEST_F(SceneRib, SunsAndSpotsAreTheStandardShaders) {
   EXPECT_EQ(distant.parameter("string pelage").texts[0],
             "{type: sun, direction: [1, -2, 0], irradiance: 6, angle: 20}")
       << "without links, whose names a RIB file does not have";
-  rib = requests({}, {{"lights", "{spot: {type: spot, position: [0, 3, 0], power: 100, cone: 60, exposure: 1}}"}});
+  rib = requests(
+      {}, {{"lights", "{spot: {type: spot, position: [0, 3, 0], power: 100, cone: 60, exposure: 1}}"}});
   const RibRequest& spot = find(rib, "LightSource");
   EXPECT_EQ(spot.arguments[0].texts[0], "spotlight");
   EXPECT_NEAR(spot.parameter("float coneangle").numbers[0], 3.14159265 / 6, 1e-6);
