@@ -13,7 +13,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
-SIZE = 200
+SIZE = 180
 
 COAT = """pelage: 1
 camera: {{position: [0, 2.4, 5.6], look_at: [0, 0.35, 0], fov: 27}}
@@ -32,7 +32,7 @@ grooms:
       - width: {{root: 0.016, tip: 0.006}}
 materials:
   hide: {{model: lambert, color: [0.35, 0.28, 0.24]}}
-  fur: {{model: chiang, color: [0.55, 0.36, 0.2]}}
+  fur: {{model: lambert-cylinder, color: [0.6, 0.4, 0.24]}}
 characters: {{patch: {{parts: [{{skin: patch, material: hide, grooms: {{coat: fur}}}}]}}}}
 lights:
   light: {light}
@@ -40,14 +40,14 @@ lights:
 render: {{samples: 64, bounces: 3, lod: {{enabled: false}}}}
 """
 LIGHTS = [
-    "{type: rectangle, position: [-4, 5, 3], look_at: [0, 0.3, 0], size: [3, 3], radiance: 6}",
-    "{type: disk, position: [-4, 5, 3], look_at: [0, 0.3, 0], radius: 1.7, power: 170}",
+    "{type: rectangle, position: [-4, 5, 3], look_at: [0, 0.3, 0], size: [3, 3], radiance: 24}",
+    "{type: disk, position: [-4, 5, 3], look_at: [0, 0.3, 0], radius: 1.7, power: 680}",
     "{type: sphere, position: [-2.2, 1.6, 1], radius: 0.5, power: 150, temperature: 4000}",
-    "{type: point, position: [-1.2, 1.6, 1.4], power: 150, temperature: 2700}",
-    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 1500, cone: 16, softness: 0.4}",
-    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 2500, cone: 26, file: GOBO}",
+    "{type: point, position: [-1.2, 1.6, 1.4], power: 110, temperature: 2700}",
+    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 9000, cone: 16, softness: 0.4}",
+    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 9000, cone: 26, file: GOBO}",
     "{type: sun, direction: [2, -1.1, -0.6], irradiance: 5, temperature: 5000}",
-    "{type: mesh, file: TUBES, power: 60, temperature: 9000}",
+    "{type: mesh, file: TUBES, power: 220, temperature: 9000}",
 ]
 
 ROOM = """pelage: 1

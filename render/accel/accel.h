@@ -8,9 +8,9 @@
 #include "base/vector.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
-#include "render/accel/part_set.h"
 #include "render/accel/strand_handle.h"
 #include "render/accel/trace_counts.h"
+#include "render/light/part_set.h"
 
 namespace pelage {
 

@@ -33,6 +33,7 @@ struct VisiblePoint {
   LeavingRay scattered;  ///< the ray sampled from the lobes
   /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was sampled
   Rgb weights[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
+  float attraction = 1;  ///< FibreValue::attraction of this direction
 
   /// Returns `leaving` as a ray that the accelerator can trace.
   Ray ray(const LeavingRay& leaving) const {

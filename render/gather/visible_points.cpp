@@ -145,6 +145,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   if (sample) {
     const FibreValue& value = sample->value;
     for (int g = 0; g < kLobeGroups; ++g) visible.weights[g] = value.lobes[g] / value.pdf;
+    visible.attraction = value.attraction;
     visible.scattered = {point.start(sample->wi), sample->wi, std::numeric_limits<float>::infinity()};
     direct_.find_lights(point, sample->wi, visible.scattered.far, value.pdf, scratch.direct,
                         [&](size_t light, const LightHit& hit, float weight) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/vector.h"
-#include "render/accel/part_set.h"
+#include "render/light/part_set.h"
 
 namespace pelage {
 

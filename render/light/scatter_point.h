@@ -54,7 +54,7 @@ class ScatterPoint {
 
   FibreValue eval(const V3f& wi) const {
     FibreValue value = eval_lobes(wi);
-    if (magnet_share_ > 0) value.pdf = (1 - magnet_share_) * value.pdf + magnets_->pdf(position(), wi);
+    if (magnet_share_ > 0) attract(wi, value);
     return value;
   }
 
@@ -69,8 +69,7 @@ class ScatterPoint {
     }
     const float rest = std::min((u.z - magnet_share_) / (1 - magnet_share_), kBelowOne);
     std::optional<FibreSample> sample = sample_lobes({u.x, u.y, rest});
-    if (sample)
-      sample->value.pdf = (1 - magnet_share_) * sample->value.pdf + magnets_->pdf(position(), sample->wi);
+    if (sample) attract(sample->wi, sample->value);
     return sample;
   }
   /// `magnets` must outlive the point.
@@ -118,6 +117,12 @@ class ScatterPoint {
   /// Distance of start() from the axis, in radii.
   static constexpr float kJustOutside = 1.001f;
 
+  /// Adds the density of sampling the magnets to that of sampling the lobes.
+  void attract(const V3f& wi, FibreValue& value) const {
+    const float lobes = value.pdf;
+    value.pdf = (1 - magnet_share_) * lobes + magnets_->pdf(position(), wi);
+    if (lobes > 0) value.attraction = value.pdf / lobes;
+  }
   FibreValue eval_lobes(const V3f& wi) const {
     if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
     if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));

@@ -27,6 +27,7 @@ struct PathState {
   Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
   Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
+  float attraction = 1;    ///< product of FibreValue::attraction of the same vertices
 };
 
 /// What a path does at a vertex that it has reached.
@@ -90,8 +91,12 @@ class PathWalk {
   /// Returns the probability that roulette continues a path of this weight: the light that the path may still
   /// contribute, divided by the brightness of the pixel [Vorba16]; at most 1. If the probability were the
   /// weight itself, roulette would also end paths that contribute as much as others. In pale fur, it would
-  /// save a quarter of the rays, but increase the variance by two thirds.
-  static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
+  /// save a quarter of the rays, but increase the variance by two thirds. `attraction`: what the weight would
+  /// be larger by without magnets. They send many rays of low weight to where much light is expected, so the
+  /// light that such a ray may still contribute is not small.
+  static float survival(const Rgb& weight, float attraction) {
+    return std::min(1.0f, attraction * max_component(weight) / kShown);
+  }
 
  private:
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
@@ -173,7 +178,7 @@ class PathWalk {
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
-  return value.pdf * survival(path.weight * (value.total() / value.pdf));
+  return value.pdf * survival(path.weight * (value.total() / value.pdf), path.attraction * value.attraction);
 }
 
 template <class Sink>
@@ -241,6 +246,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
     path.throughput *= value.total() / value.pdf;
   }
   path.weight *= value.total() / value.pdf;
+  path.attraction *= value.attraction;
   if (!(max_component(path.weight) > 0)) return false;
 
   Ray ray = leaving_ray(point, sample->wi, path);
@@ -250,7 +256,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
   }
   float survived = 1;
   if (options_.roulette) {
-    survived = survival(path.weight);
+    survived = survival(path.weight, path.attraction);
     seek(path, VertexDimension::kRoulette);
     if (path.stream.next1d() >= survived) return false;
     path.throughput /= survived;

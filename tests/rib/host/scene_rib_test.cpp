@@ -186,26 +186,6 @@ TEST_F(SceneRib, MaterialsAndLightsAreParametrised) {
             "{type: environment, radiance: 0.3}");
 }
 
-TEST_F(SceneRib, SunsAndSpotsAreTheStandardShaders) {
-  const std::string sun = "{type: sun, direction: [1, -2, 0], irradiance: 6, angle: 20, shadowed_by: []}";
-  auto rib = requests({}, {{"lights", "{sun: " + sun + "}"}});
-  const RibRequest& distant = find(rib, "LightSource");
-  EXPECT_EQ(distant.arguments[0].texts[0], "distantlight");
-  // A surface that faces the light gets pi * lightcolor * intensity.
-  EXPECT_NEAR(distant.parameter("color lightcolor").numbers[0] * 3.14159265, 6, 1e-5);
-  EXPECT_EQ(distant.parameter("point to").numbers, (std::vector<double>{1, -2, 0}));
-  EXPECT_EQ(distant.parameter("string pelage").texts[0],
-            "{type: sun, direction: [1, -2, 0], irradiance: 6, angle: 20}")
-      << "without links, whose names a RIB file does not have";
-  rib = requests(
-      {}, {{"lights", "{spot: {type: spot, position: [0, 3, 0], power: 100, cone: 60, exposure: 1}}"}});
-  const RibRequest& spot = find(rib, "LightSource");
-  EXPECT_EQ(spot.arguments[0].texts[0], "spotlight");
-  EXPECT_NEAR(spot.parameter("float coneangle").numbers[0], 3.14159265 / 6, 1e-6);
-  EXPECT_NEAR(spot.parameter("float intensity").numbers[0], 2, 1e-6);
-  EXPECT_NEAR(spot.parameter("color lightcolor").numbers[0], 100 / (4 * 3.14159265 * 3.14159265), 1e-5);
-}
-
 TEST_F(SceneRib, SkinsWithoutAConstantColorHaveTheirMean) {
   const auto rib =
       requests({}, {{"materials.hide.color", "{ramp: {along: y, knots: [[-0.5, 0.2], [0.5, 0.6]]}}"}});
