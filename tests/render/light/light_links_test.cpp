@@ -30,14 +30,16 @@ SkinMesh square(float x0, float x1, float z) {
 /// camera does not see.
 class ShadowedWall {
  public:
-  ShadowedWall(Integrator integrator, bool shadows) : scene_(8, 8) {
+  ShadowedWall(Integrator integrator, bool shadows, bool is_catcher = false) : scene_(8, 8) {
     scene_.render.integrator = integrator;
     scene_.render.samples = 16;
     scene_.render.bounces = 0;
     scene_.camera.fov = 10.0f;
     LambertParams grey;
     grey.color = Field(Rgb(0.5f));
-    scene_.add_skin(square(-20, 20, 0), grey);
+    LambertParams wall = grey;
+    wall.shadow_catcher = is_catcher;
+    scene_.add_skin(square(-20, 20, 0), wall);
     scene_.add_skin(square(-30, -2, 5), grey);
     SunLightParams sun;
     sun.direction = V3f(1, 0, -1);
@@ -46,11 +48,18 @@ class ShadowedWall {
     scene_.add_light("sun", sun);
   }
   float brightness(std::shared_ptr<const PartSet> receivers, std::shared_ptr<const PartSet> casters) {
-    scene_.link = [&](LightSet& lights) { lights.light(0).link(receivers, casters); };
-    return picture_mean(scene_.run().film).mean.x;
+    return picture_mean(run(receivers, casters)).mean.x;
+  }
+  float alpha(std::shared_ptr<const PartSet> receivers, std::shared_ptr<const PartSet> casters) {
+    return run(receivers, casters).alpha(4, 4);
   }
 
  private:
+  Film run(std::shared_ptr<const PartSet> receivers, std::shared_ptr<const PartSet> casters) {
+    scene_.link = [&](LightSet& lights) { lights.light(0).link(receivers, casters); };
+    return std::move(scene_.run().film);
+  }
+
   PathScene scene_;
 };
 
@@ -68,6 +77,15 @@ TEST(LightLinks, DecideWhatIsLitAndWhatCastsShadows) {
     ShadowedWall without(integrator, false);
     EXPECT_NEAR(without.brightness({}, {}), lit, 2e-3f);
     EXPECT_NEAR(without.brightness({}, parts({kWall, kBlocker})), lit, 2e-3f) << "omit_shadows() stays";
+  }
+}
+
+TEST(LightLinks, ShadowCatchersFollowThem) {
+  for (const Integrator integrator : {Integrator::kPath, Integrator::kGather}) {
+    ShadowedWall wall(integrator, true, true);
+    EXPECT_NEAR(wall.alpha({}, {}), 1, 1e-5f);
+    EXPECT_EQ(wall.alpha({}, parts({kWall})), 0);
+    EXPECT_EQ(wall.alpha(parts({kBlocker}), {}), 0);
   }
 }
 
