@@ -136,7 +136,7 @@ def main(pelage):
                         "256x256", "3", "-d", "uint8", "-o", folder / "gobo.png"], check=True)
         lights = [render(pelage, COAT.format(size=SIZE, examples=ROOT / "examples", light=light), folder, f"light{i}")
                   for i, light in enumerate(LIGHTS)]
-        mosaic(lights, 4, IMAGES / "lights.jpg", 85)
+        mosaic(lights, 4, IMAGES / "lights.jpg", 74)
         room = {"size": SIZE, "examples": ROOT / "examples", "samples": 64, "integrator": "path", "seed": 1}
         rooms = [render(pelage, ROOM.format(magnets=magnets, **room), folder, f"room{i}")
                  for i, magnets in enumerate(("", MAGNET))]
