@@ -99,7 +99,7 @@ TEST(MagnetSet, ChangesNoMean) {
     // Student with 6 degrees of freedom: 5 standard errors are exceeded once in 400 seeds, and these are
     // fixed.
     EXPECT_NEAR(attracted, plain, 5 * std::sqrt(variance + plain_variance));
-    EXPECT_LT(std::sqrt(variance + plain_variance) / plain, 0.01) << "so that the test can fail";
+    EXPECT_LT(std::sqrt(variance + plain_variance) / plain, 0.03) << "so that the test can fail";
   }
 }
 
