@@ -63,7 +63,26 @@ std::string describe_item(const ArchiveParams& archive) {
                      counted(static_cast<int64_t>(archive.materials.items.size()), "surface"));
 }
 
-std::string describe_item(const LightParams& light) { return kind_of(light); }
+std::string describe_item(const LightParams& light) {
+  std::string text = kind_of(light);
+  const auto add_names = [&](const char* title, const std::optional<std::vector<NameReference>>& names) {
+    if (!names) return;
+    for (size_t i = 0; i < names->size(); ++i)
+      text += fmt::format("{}{}", i == 0 ? title : ", ", (*names)[i].name);
+    if (names->empty()) text += fmt::format("{}nothing", title);
+  };
+  std::visit(
+      [&](const LightEmission& common) {
+        if (common.temperature) text += fmt::format(", {} K", *common.temperature);
+        if (common.visible) text += ", visible";
+        if (!common.shadows) text += ", without shadows";
+        add_names(", illuminates ", common.illuminates);
+        add_names(", shadowed by ", common.shadowed_by);
+      },
+      light);
+  return text;
+}
+std::string describe_item(const MagnetParams& magnet) { return kind_of(magnet); }
 std::string describe_item(const MaterialParams& material) { return kind_of(material); }
 
 template <class T>
@@ -86,6 +105,7 @@ std::string describe_scene(const SceneDescription& scene) {
   text += section("characters", scene.characters);
   if (!scene.crowds.items.empty()) text += section("crowds", scene.crowds);
   if (!scene.archives.items.empty()) text += section("archives", scene.archives);
+  if (!scene.magnets.items.empty()) text += section("magnets", scene.magnets);
   return text + section("lights", scene.lights);
 }
 

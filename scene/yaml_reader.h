@@ -13,7 +13,7 @@ namespace pelage {
 /// what the scene may still use.
 struct DocumentLimits {
   size_t bytes = size_t(2) << 20;  ///< total size of the texts
-  size_t values = 100'000;         ///< count of scalars, lists, maps and keys
+  size_t values = 200'000;         ///< count of scalars, lists, maps and keys
   int files = 64;                  ///< count of files, including the scene itself
 };
 

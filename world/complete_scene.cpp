@@ -41,6 +41,9 @@ void set_scale(SceneDescription& scene) {
   scene.camera.meters_per_unit = meters;
   if (scene.render.lod.camera.own) scene.render.lod.camera.own->meters_per_unit = meters;
   for (auto& skin : scene.skins.items) skin.value.transform.meters_per_unit = meters;
+  for (auto& light : scene.lights.items) {
+    if (auto* mesh = std::get_if<MeshLightParams>(&light.value)) mesh->transform.meters_per_unit = meters;
+  }
   for (auto& groom : scene.grooms.items) {
     if (groom.value.transform) groom.value.transform->meters_per_unit = meters;
   }

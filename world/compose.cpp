@@ -16,6 +16,7 @@
 #include "world/camera_frame.h"
 #include "world/coat_motion.h"
 #include "world/frame_characters.h"
+#include "world/light_links.h"
 #include "world/scene_origin.h"
 
 namespace pelage {
@@ -80,8 +81,13 @@ class Composer {
     pose_hasher_.add(posed->hash());
     box.extendBy(posed->bound(BoundSpan::kShutter));
     const size_t own = world_.scene.skins.size();
-    world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
-                                  material_index(scene_, part.material), tint});
+    world_.scene.skins.push_back({character.name + "." + part.skin.name,
+                                  posed,
+                                  skin.rest,
+                                  material_index(scene_, part.material),
+                                  tint,
+                                  {},
+                                  character.prototype + "." + part.skin.name});
     for (const auto& groom : part.grooms.items) {
       const auto& coat = assets_.grooms.at(groom.name);
       const auto shown = moved_coat(scene_, assets_, character, index, groom.name, frame_,
@@ -91,6 +97,7 @@ class Composer {
       fur.scale = posed->scale();
       fur.skin = static_cast<uint32_t>(own);
       fur.follows = posed;
+      fur.prototype = character.prototype + "." + groom.name;
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
@@ -141,6 +148,28 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   return header;
 }
 
+/// Makes something that the scene names at a position. Errors without a position get this one.
+template <class Make>
+auto made_at(const SourcePosition& position, const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.position.file.empty()) problem.position = position;
+    }
+    throw Error(error.kind(), std::move(problems));
+  }
+}
+
+MagnetSet make_magnets(const SceneDescription& scene, double frame, const V3f& origin) {
+  std::vector<MagnetSet::Magnet> magnets;
+  for (const auto& item : scene.magnets.items)
+    magnets.push_back(
+        made_at(item.position, [&] { return make_magnet(item.name, item.value, frame, origin); }));
+  return MagnetSet(std::move(magnets));
+}
+
 LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
                      const V3f& origin, const Camera& camera) {
   std::vector<std::unique_ptr<Light>> lights;
@@ -150,13 +179,20 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
     if (auto* sky = std::get_if<EnvironmentLightParams>(&exposed); sky && !scene.image.background.empty())
       sky->visible = false;
     if (exposure != 1) std::visit([&](auto& light) { light.radiance *= exposure; }, exposed);
-    lights.push_back(make_light(name, exposed, frame, assets.textures, job.ledger, origin));
+    lights.push_back(made_at(position, [&, &of = name] {
+      return make_light(of, exposed, frame, assets.textures, job.ledger, origin);
+    }));
   }
   if (const AssetPath& plate = scene.image.background; !plate.empty()) {
     lights.push_back(
         std::make_unique<PlateLight>(kBackground, assets.textures.load(plate), camera, scene.image.width));
   }
   return LightSet(std::move(lights));
+}
+
+void link_lights(const SceneDescription& scene, RenderScene& frame) {
+  for (size_t i = 0; i < scene.lights.items.size(); ++i)
+    link_light(scene.lights.items[i].value, frame.fur, frame.skins, frame.lights.light(i));
 }
 
 }  // namespace
@@ -176,7 +212,8 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
                view,
                scene.image,
                scene.render,
-               origin},
+               origin,
+               make_magnets(scene, frame, origin)},
               0,
               0,
               0,
@@ -189,6 +226,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
     load_archive(scene, archive.name, archive.value, frame, job, origin, assets.archives[archive.name]);
     add_archive(scene, archive.name, archive.value, assets.archives.at(archive.name), job, world);
   }
+  link_lights(scene, world.scene);
   return world;
 }
 
@@ -200,6 +238,8 @@ void recompose_sampling(const SceneDescription& scene, Assets& assets, double fr
   assets.materials = std::move(materials);
   world.scene.materials = assets.materials;
   world.scene.lights = std::move(lights);
+  world.scene.magnets = make_magnets(scene, frame, world.scene.origin);
+  link_lights(scene, world.scene);
   world.scene.image = scene.image;
   world.scene.render = scene.render;
 }

@@ -111,7 +111,7 @@ int64_t frame_character_bytes(const SceneDescription& scene, const Assets& asset
     bytes += times * (motion.rest.size() * sizeof(V3f) + sizeof(std::vector<V3f>) + sizeof(M44f) + kHeap);
     bytes += sizeof(PosedCharacterSkin) + 4 * kHeap + sizeof(SkinPart) + kName;
     bytes += character.parts[part].grooms.items.size() *
-             (sizeof(FurPart) + sizeof(FurProcedural) + sizeof(void*) + kName + 2 * kHeap);
+             (sizeof(FurPart) + sizeof(FurProcedural) + sizeof(void*) + 2 * kName + 3 * kHeap);
   }
   return static_cast<int64_t>(bytes);
 }

@@ -21,6 +21,7 @@
 #include "world/dynamics_check.h"
 #include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
+#include "world/light_links.h"
 #include "world/presets.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"
@@ -186,6 +187,7 @@ void check_references(const SceneDescription& scene, Problems& problems) {
       problems.add(light.position,
                    "the layer of `image.background` has this name; give the light another one");
   }
+  check_light_links(scene, problems);
   for (const auto& groom : scene.grooms.items)
     check_layer_name("groom", groom.name, groom.position, problems);
 }
@@ -338,6 +340,9 @@ void complete_frame(const std::filesystem::path& path, std::vector<Override> ove
 std::optional<std::string> why_dark(const SceneDescription& scene) {
   const auto shines = [](const auto& light) {
     const auto& keys = light.intensity.keys();
+    if constexpr (requires { light.power > 0; }) {
+      if (!std::optional<float>(light.power).value_or(1)) return false;
+    }
     return max_component(light.radiance) > 0 &&
            std::any_of(keys.begin(), keys.end(), [](const auto& key) { return key.second > 0; });
   };

@@ -49,7 +49,7 @@ void add_material(const std::string& path, const Value& material, SceneParts& pa
 Redo redo_of(const std::string& part) {
   if (std::find(kSamplingKeys.begin(), kSamplingKeys.end(), part) != kSamplingKeys.end())
     return Redo::kSampling;
-  if (part.starts_with("lights.")) return Redo::kSampling;
+  if (part.starts_with("lights.") || part.starts_with("magnets.")) return Redo::kSampling;
   if (part.starts_with("camera") || part == "frames") return Redo::kGeometry;
   if (part.starts_with("render.gather.")) {
     // The accelerator widens strands, and `raster` needs other boxes than `rays`.

@@ -213,6 +213,9 @@ camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0]
           {.help = "RIB files that are rendered with the scene, by name"});
     s.key("lights", &SceneDescription::lights,
           {.help = "Lights, by name; each adds its own layers to the picture"});
+    s.key("magnets", &SceneDescription::magnets,
+          {.help = "Shapes that attract rays, by name: they reduce the noise of rooms that are lit through a "
+                   "window"});
     s.key("render", &SceneDescription::render,
           {.help = "Rendering method, quality and limits", .default_text = "see render"});
     return s;

@@ -16,6 +16,7 @@
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_params.h"
+#include "render/light/magnet_params.h"
 #include "render/material/material.h"
 #include "render/scene/render_params.h"
 #include "rib/document/rib_use.h"
@@ -127,6 +128,7 @@ struct SceneDescription {
   Named<CrowdParams> crowds;
   Named<ArchiveParams> archives;
   Named<LightParams> lights;
+  Named<MagnetParams> magnets;
   RenderParams render;
   std::string hash;  ///< hash of the document with its overrides, not of the assets that it names
   /// All files that this process reads for the scene: the scene file, its included files, and the assets

@@ -42,8 +42,12 @@ struct Row {
 
 class Sweep {
  public:
-  Sweep(int max, const MeasureSetup& setup, Progress& progress)
-      : max_(max), progress_(progress), runner_(setup, progress, 2 + 5 * std::size(kPlainShares)) {}
+  /// `magnets`: whether the scene has some; then it is also rendered without them.
+  Sweep(int max, bool magnets, const MeasureSetup& setup, Progress& progress)
+      : max_(max),
+        magnets_(magnets),
+        progress_(progress),
+        runner_(setup, progress, 2 + (magnets ? 7 : 5) * std::size(kPlainShares)) {}
 
   void run() {
     for (const char* id : {"reference-a", "reference-b"}) {
@@ -78,6 +82,9 @@ class Sweep {
         return add(variant, samples, plain);
       };
       if (!gather("gather", "gather", "false") || !gather("reject", "gather, rejecting", "true")) return;
+      if (magnets_ &&
+          (!without_magnets("path", samples, plain) || !without_magnets("gather", samples, plain)))
+        return;
     }
   }
 
@@ -87,6 +94,15 @@ class Sweep {
   const VariantRunner& runner() const { return runner_; }
 
  private:
+  bool without_magnets(const std::string& integrator, int samples, size_t plain) {
+    Variant variant =
+        variant_of(fmt::format("{}-without-magnets-{}", integrator, samples),
+                   fmt::format("{} without magnets, {}", integrator, samples), samples, outcomes.size());
+    set(variant, "render.integrator", integrator);
+    set(variant, "magnets", "{}");
+    set(variant, "image.noise_layers", "false");
+    return add(variant, samples, plain);
+  }
   bool add(const Variant& variant, int plain, size_t plain_at) {
     outcomes.push_back(runner_.run(variant));
     Row row{plain, plain_at, {}, false};
@@ -103,6 +119,7 @@ class Sweep {
   }
 
   int max_;
+  bool magnets_;
   Progress& progress_;
   VariantRunner runner_;
 };
@@ -117,7 +134,7 @@ double gain(const std::vector<Row>& rows, const Row& row, double samples) {
 }  // namespace
 
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress) {
-  Sweep sweep(scene.render.samples, setup, progress);
+  Sweep sweep(scene.render.samples, !scene.magnets.items.empty(), setup, progress);
   sweep.run();
   Measured measured;
   measured.outcomes = std::move(sweep.outcomes);
@@ -168,7 +185,9 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "alpha, {:.2f} times fewer in all: the best counts are proportional to the square root of the "
            "variance. Rows of gather have as many samples as the plain ones; those that reject follow the "
            "rule of \"Rendering Fur in Life of Pi\": no shadow ray where the first rays of a tile were "
-           "blocked. What these rays miss is lost, which the bias shows.",
+           "blocked. What these rays miss is lost, which the bias shows. A scene with magnets is also "
+           "rendered "
+           "without them.",
            kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
            sweep.best.all)}}});
   report.sections.push_back(

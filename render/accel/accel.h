@@ -10,6 +10,7 @@
 #include "geom/tessellation.h"
 #include "render/accel/strand_handle.h"
 #include "render/accel/trace_counts.h"
+#include "render/light/part_set.h"
 
 namespace pelage {
 
@@ -36,6 +37,8 @@ struct Ray {
   /// Whether this is a shadow ray or an indirect ray, for which an accelerator may simplify strands
   /// (ResidentChunksOptions). Rays that decide what the camera sees are not secondary.
   bool secondary = false;
+  /// The coats and skins that block a shadow ray; null: all. closest() ignores it.
+  const PartSet* casters = nullptr;
 };
 
 enum class HitKind : uint8_t { kNone, kStrand, kSkin };

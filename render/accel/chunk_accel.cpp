@@ -196,6 +196,7 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
   visit_chunks(
       ray, ChunkWalk::Order::kLongestFirst, thread, [&] { return ray.far; },
       [&](uint32_t chunk) {
+        if (ray.casters && !ray.casters->contains({chunks_.is_skin(chunk), chunks_.part(chunk)})) return true;
         const size_t before = crossings.reports();
         blocked = !chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
           return geometry.collect(ray, rays, crossings);

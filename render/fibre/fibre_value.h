@@ -19,6 +19,8 @@ inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary
 struct FibreValue {
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   float pdf = 0;  ///< density of sample(), per solid angle
+  /// `pdf` / density of sampling the lobes alone: more where magnets attract rays (MagnetSet).
+  float attraction = 1;
 
   Rgb& operator[](LobeGroup group) { return lobes[static_cast<int>(group)]; }
   Rgb total() const { return lobes[0] + lobes[1] + lobes[2]; }

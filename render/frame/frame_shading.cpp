@@ -252,6 +252,8 @@ ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit,
   ScatterPoint point = hit.kind == HitKind::kStrand ? fibre_point(ray, hit, hit_geometry.strand)
                                                     : skin_point(ray, hit, hit_geometry.triangle);
   if (hit.kind == HitKind::kStrand) set_skin(ray, hit, hit_geometry.strand, point);
+  if (!scene_.magnets.empty()) point.set_magnets(scene_.magnets);
+  point.set_part({hit.kind == HitKind::kSkin, hit.part});
   if (balls_) point.set_shadow(balls_->below(hit, hit_geometry, ray.time));
   return point;
 }

@@ -32,6 +32,7 @@ struct SampleScratch {
     return costs.rays.measure(kind, thread.counts, [&] { return accel.closest(ray, thread); });
   }
   float light_through(const Accel& accel, Ray shadow) {
+    if (shadow.casters && shadow.casters->empty()) return 1;
     shadow.secondary = true;
     return costs.rays.measure(RayKind::kShadow, thread.counts,
                               [&] { return accel.transmittance(shadow, thread); });

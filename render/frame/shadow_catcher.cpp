@@ -27,7 +27,8 @@ Rgb ShadowCatcher::blocked(const Ray& ray, const Hit& hit, SampleStream& stream,
                            SampleScratch& scratch) const {
   const SkinPoint at = skin_point(scratch.thread.hit_geometry.triangle, ray, hit);
   // White, whatever the colour of the skin, so that the fraction of each channel is known.
-  const ScatterPoint point(at.position, at.start, LambertBsdf(Rgb(1), at.normal));
+  ScatterPoint point(at.position, at.start, LambertBsdf(Rgb(1), at.normal));
+  point.set_part({true, hit.part});
   direct_.begin(point, lights);
   seek(stream, VertexDimension::kLight);
   direct_.propose(
@@ -42,6 +43,7 @@ Rgb ShadowCatcher::blocked(const Ray& ray, const Hit& hit, SampleStream& stream,
     shadow.direction = to.direction;
     shadow.far = to.distance * DirectLight::kJustBefore;
     shadow.time = ray.time;
+    shadow.casters = to.casters;
     const float through = scratch.light_through(accel_, shadow);
     lost += to.value.total() * to.arriving * (factor * (1 - through));
   });

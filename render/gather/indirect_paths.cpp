@@ -73,7 +73,8 @@ bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& s
       choice =
           SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, gather_point)));
     light.add_weights(gather_point, point.weights);
-    const float mass = options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight()) : 1.0f;
+    const float mass =
+        options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight(), point.attraction) : 1.0f;
     const uint32_t times = choice.times(mass);
     if (times == 0) continue;
     if (++traced % kPathsPerCheck == 0 && job.progress.cancelled()) return false;
@@ -91,6 +92,7 @@ void IndirectPaths::follow(const TileSamples& samples, const VisiblePoint& point
   path.random = point.random;
   std::copy(std::begin(point.weights), std::end(point.weights), path.first);
   path.weight = point.weight() * factor;
+  path.attraction = point.attraction;
   scratch.arriving.assign(scene_.sources(), Rgb(0));
   ArrivingLight sink(scene_, cache_ ? &*cache_ : nullptr, scratch, thread.clamp);
   walk_.follow(point.ray(point.scattered), path, scratch.direct, thread, sink);

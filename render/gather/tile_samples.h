@@ -17,7 +17,8 @@ namespace pelage {
 struct LeavingRay {
   V3f origin{0};
   V3f direction{0};
-  float far = 0;  ///< length
+  float far = 0;                     ///< length
+  const PartSet* casters = nullptr;  ///< as Ray::casters
 };
 
 /// A point of a strand or skin that a camera sample sees, with one ray in a direction sampled from its lobes.
@@ -32,6 +33,7 @@ struct VisiblePoint {
   LeavingRay scattered;  ///< the ray sampled from the lobes
   /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was sampled
   Rgb weights[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
+  float attraction = 1;  ///< FibreValue::attraction of this direction
 
   /// Returns `leaving` as a ray that the accelerator can trace.
   Ray ray(const LeavingRay& leaving) const {
@@ -39,6 +41,7 @@ struct VisiblePoint {
     result.origin = leaving.origin;
     result.direction = leaving.direction;
     result.far = leaving.far;
+    result.casters = leaving.casters;
     result.time = time;
     result.start = start;
     return result;

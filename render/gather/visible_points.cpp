@@ -113,7 +113,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   scratch.candidates.clear();
   scratch.masses.assign(lights, 0);
   const auto propose = [&](size_t of, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
-                           float distance) {
+                           float distance, const PartSet* casters) {
     const size_t light = scene_.source(of);
     Candidate candidate;
     Rgb total(0);
@@ -127,6 +127,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
     candidate.light = static_cast<uint32_t>(light);
     candidate.direction = direction;
     candidate.far = distance * DirectLight::kJustBefore;
+    candidate.casters = casters;
     scratch.candidates.push_back(candidate);
   };
 
@@ -136,13 +137,15 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
       point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
   thread.costs.occlusion.add_candidates(direct_.candidates(), scratch.direct.proved);
   for (const LightPoint& to : scratch.direct.points) {
-    propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
+    propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance,
+            to.casters);
   }
   seek(stream, VertexDimension::kLobe);
   const auto sample = point.sample(stream.next3d());
   if (sample) {
     const FibreValue& value = sample->value;
     for (int g = 0; g < kLobeGroups; ++g) visible.weights[g] = value.lobes[g] / value.pdf;
+    visible.attraction = value.attraction;
     visible.scattered = {point.start(sample->wi), sample->wi, std::numeric_limits<float>::infinity()};
     direct_.find_lights(point, sample->wi, visible.scattered.far, value.pdf, scratch.direct,
                         [&](size_t light, const LightHit& hit, float weight) {
@@ -150,7 +153,8 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
                             ++thread.costs.occlusion.rays_proved;
                             return;
                           }
-                          propose(light, visible.weights, hit.radiance * weight, sample->wi, hit.distance);
+                          propose(light, visible.weights, hit.radiance * weight, sample->wi, hit.distance,
+                                  nullptr);
                         });
   }
 }
@@ -187,7 +191,7 @@ void VisiblePoints::choose_targets(const ScatterPoint& point, float u, Scratch& 
       ray.unoccluded = static_cast<float>(times * choice.step()) / candidate.deviation;
       for (int g = 0; g < kLobeGroups; ++g)
         ray.lobes[g] = candidate.lobes[g] * (ray.unoccluded / candidate.mass);
-      ray.ray = {point.start(candidate.direction), candidate.direction, candidate.far};
+      ray.ray = {point.start(candidate.direction), candidate.direction, candidate.far, candidate.casters};
     }
   }
 }

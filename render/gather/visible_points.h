@@ -32,8 +32,9 @@ class VisiblePoints {
     float mass = 0;  ///< luminance that the point scatters to the camera if nothing blocks the light
     Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};  ///< this light, by lobe group
     V3f direction{0};
-    float far = 0;        ///< length of the shadow ray
-    float deviation = 1;  ///< guess of the standard deviation of the fraction that arrives
+    float far = 0;                     ///< length of the shadow ray
+    const PartSet* casters = nullptr;  ///< as Ray::casters
+    float deviation = 1;               ///< guess of the standard deviation of the fraction that arrives
   };
 
   struct Scratch {

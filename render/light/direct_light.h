@@ -31,8 +31,15 @@ inline float power_weight(float pdf, float other) {
 
 /// Techniques that estimate direct light: light sampling and lobe sampling, combined by the power heuristic
 /// (kBoth), or one of them alone. Every choice converges to the same picture. One technique alone is for
-/// tests and comparisons.
+/// tests and comparisons; lobe sampling does not find lights in which some parts cast no shadows
+/// (Light::casters()).
 enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
+
+/// How lights are selected: by Light::importance() alone, which is solid angle * mean radiance ["Rendering
+/// Fur in Life of Pi", stochastic light selection], or also by the scattering towards them
+/// (LightSet::probabilities()). The probability is part of the density for MIS in both cases, so the mean is
+/// the same. The first is for tests and comparisons.
+enum class LightChoice { kImportance, kLobes };
 
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
@@ -42,6 +49,7 @@ struct LightPoint {
   FibreValue value;     ///< scattering of light from this direction
   Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
   float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
+  const PartSet* casters = nullptr;  ///< Light::casters()
 };
 
 /// Memory of one thread, reused for each scatter point.
@@ -68,8 +76,12 @@ class DirectLight {
   /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `far`: where
   /// points on lights come from; null: Light::sample().
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
-              const FarLightSamples* far = nullptr)
-      : lights_(lights), far_(far), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
+              const FarLightSamples* far = nullptr, LightChoice choice = LightChoice::kLobes)
+      : lights_(lights),
+        far_(far),
+        rays_(static_cast<uint32_t>(rays)),
+        techniques_(techniques),
+        choice_(choice) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
   /// surface touching the light does not block it.
@@ -83,8 +95,11 @@ class DirectLight {
 
   /// Computes the probability of selecting each light at a scatter point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
+    constexpr float kUniform = 1 / (4 * kPi);
     lights_.prepare(
-        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.choices);
+        point.position(),
+        [&](const V3f& wi) { return choice_ == LightChoice::kLobes ? point.eval(wi).pdf : kUniform; },
+        [&](const Light& light) { return point.receives(light); }, scratch.choices);
   }
 
   /// Samples candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
@@ -131,6 +146,7 @@ class DirectLight {
   const FarLightSamples* const far_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
+  const LightChoice choice_;
 };
 
 template <class LobePdf>
@@ -154,23 +170,26 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
                                                    DirectLightScratch& scratch) const {
   const LightSet::Choice choice = lights_.choose(scratch.choices, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
+  const Light& light = lights_.light(choice.light);
+  if (!point.receives(light)) return std::nullopt;
   const V2f place(choice.remapped, u.y);
-  const auto seen = far_ ? far_->sample(choice.light, point.position(), place)
-                         : lights_.light(choice.light).sample(point.position(), place);
+  const auto seen =
+      far_ ? far_->sample(choice.light, point.position(), place) : light.sample(point.position(), place);
   if (!seen || !(seen->pdf > 0)) return std::nullopt;
   const auto sample = point.exit().toward(*seen);
   if (!sample) return std::nullopt;
-  if (point.is_shadowed(sample->direction, sample->distance * kJustBefore)) {
+  if (!light.casters() && point.is_shadowed(sample->direction, sample->distance * kJustBefore)) {
     ++scratch.proved;
     return std::nullopt;
   }
   LightPoint result;
   result.light = choice.light;
+  result.casters = light.casters();
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
   const float pdf = choice.probability * sample->pdf;
-  const float weight = techniques_ == DirectTechniques::kBoth
+  const float weight = techniques_ == DirectTechniques::kBoth && !light.casters()
                            ? power_weight(competing_pdf(pdf, sample->distance), lobe_pdf(result.value))
                            : 1.0f;
   result.arriving = sample->radiance * (weight / pdf);
@@ -199,6 +218,7 @@ void DirectLight::find_lights(const ScatterPoint& point, const V3f& direction, f
   const V3f from = point.exit().origin(direction);
   lights_.on_ray(from, direction, distance, [&](size_t i) {
     const Light& light = lights_.light(i);
+    if (light.casters() || !point.receives(light)) return;
     const auto hit = light.intersect(from, direction);
     if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) return;
     float weight = 1;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/vector.h"
+#include "render/light/part_set.h"
 
 namespace pelage {
 
@@ -40,6 +42,19 @@ class Light {
   const std::string& name() const { return name_; }
   /// Returns whether camera rays see the light.
   bool visible() const { return visible_; }
+
+  /// Limits the coats and skins that receive the light, and those that cast shadows in it. Null: all.
+  void link(std::shared_ptr<const PartSet> receivers, std::shared_ptr<const PartSet> casters) {
+    receivers_ = std::move(receivers);
+    if (!casters_ || !casters_->empty()) casters_ = std::move(casters);
+  }
+  /// From now on, nothing casts a shadow in this light, whatever link() says.
+  void omit_shadows() { casters_ = std::make_shared<const PartSet>(); }
+  bool illuminates(const FramePart& part) const { return !receivers_ || receivers_->contains(part); }
+  /// Returns the parts that cast shadows in this light; null: all. If some do not, rays that are sampled from
+  /// lobes ignore the light, because they do not pass through these parts: only light sampling finds it.
+  const PartSet* casters() const { return casters_.get(); }
+
   /// Returns whether the light is infinitely far away, so that any surface on a line to it is nearer.
   virtual bool is_infinitely_far() const { return false; }
   /// Samples a direction from `from` to the light; empty when its light cannot reach `from`. `u`: two random
@@ -71,6 +86,7 @@ class Light {
  private:
   std::string name_;
   bool visible_;
+  std::shared_ptr<const PartSet> receivers_, casters_;
 };
 
 }  // namespace pelage

@@ -5,11 +5,24 @@ namespace pelage {
 
 namespace {
 
-const KeyOptions kRadiance{.unit = "W/(sr m2), or any unit used throughout the scene",
-                           .help = "Emitted radiance: a colour or one number",
-                           .min = 0};
-const KeyOptions kIntensity{.help = "Factor on the radiance", .min = 0};
-const KeyOptions kVisible{.help = "Whether camera rays see the light; it always lights fur and skin"};
+constexpr std::string_view kRadianceUnit = "W/(sr m2), or any unit used throughout the scene";
+constexpr std::string_view kRadiance =
+    "Emitted radiance: a colour or one number. With `power`, its colour only";
+constexpr std::string_view kColor = "Colour, a factor on the power";
+
+const KeyOptions kPower{.unit = "W, with lengths in scene units",
+                        .help =
+                            "Radiant power in each colour channel; the radiance then follows from the "
+                            "area, and `radiance` multiplies it",
+                        .min = 0};
+const KeyOptions kLampPower{.unit = "W, with lengths in scene units",
+                            .help = "Radiant power of the whole sphere in each colour channel",
+                            .min = 0};
+const KeyOptions kSmallRadius{.unit = "scene units",
+                              .help = "Radius; it changes the sharpness of shadows, not the brightness",
+                              .min = 0,
+                              .above_min = true};
+const KeyOptions kLookAt{.unit = "scene units", .help = "Point that the emitting side faces"};
 
 }  // namespace
 
@@ -26,17 +39,34 @@ const Schema<RectangleLightParams>& RectangleLightParams::schema() {
     intensity: 10)");
     s.key("position", &RectangleLightParams::position,
           {.unit = "scene units", .help = "Centre of the rectangle"});
-    s.key("look_at", &RectangleLightParams::look_at,
-          {.unit = "scene units", .help = "Point that the emitting side faces"});
+    s.key("look_at", &RectangleLightParams::look_at, kLookAt);
     s.key("up", &RectangleLightParams::up,
           {.help = "Up vector: direction of the rectangle's height. It must not be parallel to the viewing "
                    "direction from `position` to `look_at`"});
     s.key("size", &RectangleLightParams::size,
           {.unit = "scene units", .help = "Width and height", .min = 0, .above_min = true});
-    s.key("radiance", &RectangleLightParams::radiance, kRadiance);
-    s.key("intensity", &RectangleLightParams::intensity, kIntensity);
+    s.key("power", &RectangleLightParams::power, kPower);
     s.key("two_sided", &RectangleLightParams::two_sided, {.help = "Emit to both sides"});
-    s.key("visible", &RectangleLightParams::visible, kVisible);
+    s.key("file", &RectangleLightParams::file,
+          {.help = "Image that multiplies the radiance, upright as seen from the emitting side",
+           .default_text = "none"});
+    add_emission_keys(s, kRadiance, kRadianceUnit);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<DiskLightParams>& DiskLightParams::schema() {
+  static const Schema<DiskLightParams> table = [] {
+    Schema<DiskLightParams> s("disk", "A round light that emits to one side.");
+    s.set_example(R"(lights:
+  key: {type: disk, position: [-4, 6, 5], look_at: [0, 0.5, 0], radius: 2, power: 600})");
+    s.key("position", &DiskLightParams::position, {.unit = "scene units", .help = "Centre of the disk"});
+    s.key("look_at", &DiskLightParams::look_at, kLookAt);
+    s.key("radius", &DiskLightParams::radius,
+          {.unit = "scene units", .help = "Radius", .min = 0, .above_min = true});
+    s.key("power", &DiskLightParams::power, kPower);
+    add_emission_keys(s, kRadiance, kRadianceUnit);
     return s;
   }();
   return table;
@@ -53,9 +83,96 @@ const Schema<SphereLightParams>& SphereLightParams::schema() {
            .help = "Radius; smaller spheres cast sharper shadows",
            .min = 0,
            .above_min = true});
-    s.key("radiance", &SphereLightParams::radiance, kRadiance);
-    s.key("intensity", &SphereLightParams::intensity, kIntensity);
-    s.key("visible", &SphereLightParams::visible, kVisible);
+    s.key("power", &SphereLightParams::power, kPower);
+    add_emission_keys(s, kRadiance, kRadianceUnit);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<PointLightParams>& PointLightParams::schema() {
+  static const Schema<PointLightParams> table = [] {
+    Schema<PointLightParams> s(
+        "point",
+        "A small lamp that emits in all directions: a sphere whose brightness does not "
+        "depend on its radius.");
+    s.set_example(R"(lights:
+  bulb: {type: point, position: [0, 3, 2], power: 300, temperature: 2700})");
+    s.key("position", &PointLightParams::position, {.unit = "scene units", .help = "Centre"});
+    s.key("radius", &PointLightParams::radius, kSmallRadius);
+    s.key("power", &PointLightParams::power, kLampPower);
+    add_emission_keys(s, kColor);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<SpotLightParams>& SpotLightParams::schema() {
+  static const Schema<SpotLightParams> table = [] {
+    Schema<SpotLightParams> s(
+        "spot",
+        "A small lamp that shines into a cone. The cone only cuts the light of the lamp: "
+        "a narrower cone is not brighter.");
+    s.set_example(R"(lights:
+  spot: {type: spot, position: [-2, 5, 3], look_at: [0, 0.5, 0], power: 2000, cone: 25, softness: 0.3})");
+    s.key("position", &SpotLightParams::position, {.unit = "scene units", .help = "Centre of the lamp"});
+    s.key("look_at", &SpotLightParams::look_at,
+          {.unit = "scene units", .help = "Point on the axis of the cone"});
+    s.key("up", &SpotLightParams::up, {.help = "Up vector of the image in `file`"});
+    s.key("radius", &SpotLightParams::radius, kSmallRadius);
+    s.key("power", &SpotLightParams::power, kLampPower);
+    s.key("cone", &SpotLightParams::cone,
+          {.unit = "degrees", .help = "Whole angle of the cone", .min = 0.1, .max = 170});
+    s.key(
+        "softness", &SpotLightParams::softness,
+        {.help = "Fraction of the cone, from its border on, over which the light fades", .min = 0, .max = 1});
+    s.key("file", &SpotLightParams::file,
+          {.help = "Image that the spot projects (a gobo); its square fits around the cone",
+           .default_text = "none"});
+    add_emission_keys(s, kColor);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<SunLightParams>& SunLightParams::schema() {
+  static const Schema<SunLightParams> table = [] {
+    Schema<SunLightParams> s("sun", "A disc at infinity: nearly parallel light, such as that of the sun.");
+    s.set_example(R"(lights:
+  sun: {type: sun, direction: [1, -2, -1], irradiance: 4, temperature: 5500}
+  sky: {type: environment, radiance: [0.2, 0.3, 0.5]})");
+    s.key("direction", &SunLightParams::direction, {.help = "Direction in which the light travels"});
+    s.key("angle", &SunLightParams::angle,
+          {.unit = "degrees",
+           .help = "Diameter of the disc; larger discs cast softer shadows. That of the sun is 0.53",
+           .min = 0.001,
+           .max = 180});
+    s.key("irradiance", &SunLightParams::irradiance,
+          {.unit = "W/m2",
+           .help = "Irradiance of a surface that faces the sun, in each colour channel; the radiance then "
+                   "follows from the angle, and `radiance` multiplies it",
+           .min = 0});
+    add_emission_keys(s, "Radiance of the disc: a colour or one number. With `irradiance`, its colour only",
+                      kRadianceUnit);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<MeshLightParams>& MeshLightParams::schema() {
+  static const Schema<MeshLightParams> table = [] {
+    Schema<MeshLightParams> s(
+        "mesh",
+        "Light from the outer sides of a mesh, whose corners turn left as seen from there. "
+        "The mesh covers itself, but blocks no other light; to show it, also add it as a "
+        "skin.");
+    s.set_example(R"(lights:
+  tube: {type: mesh, file: tube.obj, transform: {translate: [0, 3, 0]}, power: 200})");
+    s.key("file", &MeshLightParams::file, {.help = "OBJ file; faces are flat", .required = true});
+    s.key("transform", &MeshLightParams::transform,
+          {.help = "From the coordinates of the file to those of the scene", .default_text = "none"});
+    s.key("power", &MeshLightParams::power, kPower);
+    add_emission_keys(s, kRadiance, kRadianceUnit);
     return s;
   }();
   return table;
@@ -72,12 +189,9 @@ const Schema<EnvironmentLightParams>& EnvironmentLightParams::schema() {
           {.help =
                "Lat-long image, +y up, with its centre column along -z. Without a file the light is constant",
            .default_text = "none"});
-    s.key("radiance", &EnvironmentLightParams::radiance,
-          {.help = "Factor on the image, or the constant radiance without a file", .min = 0});
-    s.key("intensity", &EnvironmentLightParams::intensity, kIntensity);
     s.key("rotate", &EnvironmentLightParams::rotate,
           {.unit = "degrees", .help = "Rotation of the image about x, then y, then z"});
-    s.key("visible", &EnvironmentLightParams::visible, kVisible);
+    add_emission_keys(s, "Factor on the image, or the constant radiance without a file");
     return s;
   }();
   return table;

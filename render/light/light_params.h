@@ -2,54 +2,114 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "base/keyed.h"
 #include "base/ledger.h"
 #include "base/value_readers.h"
+#include "geom/io/file_transform.h"
 #include "render/light/light.h"
+#include "render/light/light_emission.h"
 
 namespace pelage {
 
 class TextureLibrary;
 
-struct RectangleLightParams {
+// Lengths are in scene units, also in the units of radiance and irradiance. The radiance of a light is
+// color()
+// * strength() * unit_radiance(): of a light with a power, `radiance` is only a colour.
+
+struct RectangleLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "rectangle";
   Keyed<V3f> position{V3f(0)};        ///< centre
   Keyed<V3f> look_at{V3f(0, 0, -1)};  ///< the emitting side faces this point
   V3f up{0, 1, 0};
-  V2f size{1, 1};  ///< width, height
-  Rgb radiance{1};
-  Keyed<float> intensity{1.0f};  ///< factor of the radiance
+  V2f size{1, 1};              ///< width, height
+  std::optional<float> power;  ///< W
   bool two_sided = false;
-  bool visible = false;  ///< whether the camera sees the light
+  AssetPath file;  ///< image, a factor of the radiance; empty: 1
+  float unit_radiance() const;
   static const Schema<RectangleLightParams>& schema();
 };
-struct SphereLightParams {
+struct DiskLightParams : LightEmission {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "disk";
+  Keyed<V3f> position{V3f(0)};        ///< centre
+  Keyed<V3f> look_at{V3f(0, 0, -1)};  ///< the emitting side faces this point
+  float radius = 0.5f;
+  std::optional<float> power;  ///< W
+  float unit_radiance() const;
+  static const Schema<DiskLightParams>& schema();
+};
+struct SphereLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "sphere";
   Keyed<V3f> position{V3f(0)};
   float radius = 1;
-  Rgb radiance{1};
-  Keyed<float> intensity{1.0f};
-  bool visible = false;
+  std::optional<float> power;  ///< W
+  float unit_radiance() const;
   static const Schema<SphereLightParams>& schema();
 };
-struct EnvironmentLightParams {
+/// A small sphere, whose brightness does not depend on its radius.
+struct PointLightParams : LightEmission {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "point";
+  Keyed<V3f> position{V3f(0)};
+  float radius = 0.05f;
+  float power = 100;  ///< W
+  float unit_radiance() const;
+  static const Schema<PointLightParams>& schema();
+};
+/// See SpotLight.
+struct SpotLightParams : LightEmission {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "spot";
+  Keyed<V3f> position{V3f(0)};
+  Keyed<V3f> look_at{V3f(0, 0, -1)};
+  V3f up{0, 1, 0};  ///< of the gobo
+  float radius = 0.05f;
+  float power = 100;      ///< W, of the lamp without its cone
+  float cone = 40;        ///< whole angle in degrees
+  float softness = 0.2f;  ///< SpotCone::softness
+  AssetPath file;         ///< SpotCone::gobo; empty: none
+  float unit_radiance() const;
+  static const Schema<SpotLightParams>& schema();
+};
+struct SunLightParams : LightEmission {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "sun";
+  Keyed<V3f> direction{V3f(0, -1, 0)};  ///< in which the light travels, of any length
+  float angle = 0.53f;                  ///< diameter of the disc in degrees
+  std::optional<float> irradiance;      ///< W/m2, on a surface that faces the sun
+  float unit_radiance() const;
+  static const Schema<SunLightParams>& schema();
+};
+/// See MeshLight.
+struct MeshLightParams : LightEmission {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "mesh";
+  AssetPath file;  ///< OBJ
+  FileTransformParams transform;
+  std::optional<float> power;  ///< W; make_light() divides it by the area of the mesh
+  float unit_radiance() const { return 1; }
+  static const Schema<MeshLightParams>& schema();
+};
+struct EnvironmentLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "environment";
-  AssetPath file;   ///< lat-long image, see EnvironmentMap; empty: constant radiance
-  Rgb radiance{1};  ///< factor of the image, or the constant radiance
-  Keyed<float> intensity{1.0f};
-  V3f rotate{0};  ///< rotation about x, then y, then z, in degrees
-  bool visible = true;
+  EnvironmentLightParams() { visible = true; }
+  AssetPath file;  ///< lat-long image, a factor of the radiance, see EnvironmentMap; empty: 1
+  V3f rotate{0};   ///< rotation about x, then y, then z, in degrees
+  float unit_radiance() const { return 1; }
   static const Schema<EnvironmentLightParams>& schema();
 };
-using LightParams = std::variant<RectangleLightParams, SphereLightParams, EnvironmentLightParams>;
+using LightParams = std::variant<RectangleLightParams, DiskLightParams, SphereLightParams, PointLightParams,
+                                 SpotLightParams, SunLightParams, MeshLightParams, EnvironmentLightParams>;
 
-/// Makes a light with its parameters at `frame`. `origin`: RenderScene::origin. Throws Error (kInput) for
-/// missing images.
+/// Makes a light with its parameters at `frame`. `origin`: RenderScene::origin. Does not resolve the names of
+/// characters and coats. Throws Error (kInput) for missing images, and for directions of length 0.
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
                                   TextureLibrary& textures, MemoryLedger& ledger, const V3f& origin = V3f(0));
 

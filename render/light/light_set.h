@@ -28,6 +28,8 @@ class LightSet {
 
   size_t size() const { return lights_.size(); }
   const Light& light(size_t i) const { return *lights_[i]; }
+  /// For Light::link() after the parts of the frame are known; nothing else may change.
+  Light& light(size_t i) { return *lights_[i]; }
 
   /// A selected light.
   struct Choice {
@@ -53,15 +55,26 @@ class LightSet {
   /// The importance has no factor that bounds cos(theta_i). Such a factor would lower the importance of
   /// lights in the direction of the fibre. But when the fibre is seen at a slant, R, TT and TRT scatter light
   /// from these directions as brightly as light from others.
-  template <class Density>
-  void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
+  ///
+  /// `reaches(light)`: whether the light illuminates the point; others have probability 0.
+  template <class Density, class Reaches>
+  void probabilities(const V3f& from, const Density& lobes, const Reaches& reaches,
+                     std::span<float> out) const {
     importances(from, out);
-    for (size_t i = 0; i < size() && size() > 1; ++i) {
+    for (size_t i = 0; i < size(); ++i) {
       if (!(out[i] > 0.0f)) continue;
+      if (!reaches(*lights_[i])) out[i] = 0;
+      if (!(out[i] > 0.0f) || size() == 1) continue;
       const std::optional<LightBall> ball = lights_[i]->ball();
       if (ball) out[i] *= towards_lobes(ball->center - from, lobes);
     }
     normalise(out);
+  }
+
+  template <class Density>
+  void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
+    probabilities(
+        from, lobes, [](const Light&) { return true; }, out);
   }
 
   /// Scenes with more lights at finite distances select among nodes of a tree, and then within the node.
@@ -71,8 +84,15 @@ class LightSet {
   /// finite distances, they are those of probabilities(). Otherwise, the first choice is among far lights and
   /// nodes of a cut of the tree, by the same rule, and the tree chooses the light. So `lobes` is called at
   /// most LightTree::kMaxCut times.
+  ///
+  /// The tree does not know which lights reach a point: it may choose lights that do not.
+  template <class Density, class Reaches>
+  void prepare(const V3f& from, const Density& lobes, const Reaches& reaches, LightChoices& choices) const;
   template <class Density>
-  void prepare(const V3f& from, const Density& lobes, LightChoices& choices) const;
+  void prepare(const V3f& from, const Density& lobes, LightChoices& choices) const {
+    prepare(
+        from, lobes, [](const Light&) { return true; }, choices);
+  }
   /// Selects a light, as choose() above.
   Choice choose(const LightChoices& choices, float u) const;
   /// Returns the probability that choose() selects a light.
@@ -106,17 +126,19 @@ class LightSet {
   size_t group_count_ = 0;
 };
 
-template <class Density>
-void LightSet::prepare(const V3f& from, const Density& lobes, LightChoices& choices) const {
+template <class Density, class Reaches>
+void LightSet::prepare(const V3f& from, const Density& lobes, const Reaches& reaches,
+                       LightChoices& choices) const {
   choices.from = from;
   if (tree_.empty()) {
     choices.probabilities.resize(size());
-    probabilities(from, lobes, choices.probabilities);
+    probabilities(from, lobes, reaches, choices.probabilities);
     return;
   }
   tree_.cut(from, choices.cut);
   choices.probabilities.clear();
-  for (const uint32_t light : far_) choices.probabilities.push_back(lights_[light]->importance(from));
+  for (const uint32_t light : far_)
+    choices.probabilities.push_back(reaches(*lights_[light]) ? lights_[light]->importance(from) : 0.0f);
   for (const uint32_t node : choices.cut) {
     const float importance = tree_.importance(node, from);
     const float lobe = importance > 0 ? towards_lobes(tree_.center(node) - from, lobes) : 0.0f;

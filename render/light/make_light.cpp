@@ -1,16 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "base/nearest_name.h"
+#include "geom/io/obj_file.h"
+#include "geom/polygon_cut.h"
 #include "image/texture_library.h"
+#include "render/light/disk_light.h"
 #include "render/light/environment_light.h"
 #include "render/light/light_params.h"
+#include "render/light/mesh_light.h"
 #include "render/light/rectangle_light.h"
 #include "render/light/sphere_light.h"
+#include "render/light/spot_light.h"
+#include "render/light/sun_light.h"
 #include "render/sampling/warp.h"
 
 namespace pelage {
 
 namespace {
+
+constexpr float kRadians = std::numbers::pi_v<float> / 180;
+
+/// Radiance of a surface that emits a power equally from every point in every direction.
+float radiance_of(const std::optional<float>& power, float area) { return power ? *power / (kPi * area) : 1; }
+float sphere_area(float radius) { return 4 * kPi * radius * radius; }
+
+std::vector<MeshLight::Triangle> triangles_of(ControlMesh cage, const M44f& to_scene) {
+  transform_cage(to_scene, cage);
+  std::vector<MeshLight::Triangle> triangles;
+  std::vector<V3f> corners;
+  std::vector<uint32_t> cut;
+  const uint32_t* vertex = cage.face_vertices.data();
+  for (const uint32_t size : cage.face_sizes) {
+    corners.clear();
+    cut.clear();
+    for (uint32_t i = 0; i < size; ++i) corners.push_back(cage.positions[vertex[i]]);
+    cut_polygon({vertex, size}, corners, cut);
+    for (size_t i = 0; i + 2 < cut.size(); i += 3)
+      triangles.push_back({{corners[cut[i]], corners[cut[i + 1]], corners[cut[i + 2]]}});
+    vertex += size;
+  }
+  return triangles;
+}
+
+/// Three perpendicular unit vectors: z in a given direction, y as near as possible to an up vector.
+struct Axes {
+  V3f x, y, z;
+};
 
 struct LightMaker {
   const std::string& name;
@@ -20,45 +61,108 @@ struct LightMaker {
   const V3f& origin;
 
   std::unique_ptr<Light> operator()(const RectangleLightParams& p) const {
-    Rectangle shape;
-    shape.center = relative_to(p.position, origin).at(frame);
-    const V3f forward = relative_to(p.look_at, origin).at(frame) - shape.center;
-    if (!(forward.length() > 0)) {
-      throw Error(ErrorKind::kInput,
-                  fmt::format("lights.{}: position and look_at are the same point at frame {}", name, frame));
-    }
-    const V3f normal = forward.normalized();
-    shape.x = p.up.cross(normal);
-    if (shape.x.length() > 1e-6f * p.up.length()) {
-      shape.x.normalize();
-    } else {
-      V3f unused;
-      complete_frame(normal, shape.x, unused);
-    }
-    shape.y = normal.cross(shape.x);
-    shape.half_size = p.size * 0.5f;
-    return std::make_unique<RectangleLight>(name, shape, p.radiance * p.intensity.at(frame), p.two_sided,
-                                            p.visible);
+    const Axes axes = facing(p, p.up);
+    const Rectangle shape{center(p), axes.x, axes.y, p.size * 0.5f};
+    return std::make_unique<RectangleLight>(name, shape, radiance(p), p.two_sided, p.visible, image(p.file));
+  }
+
+  std::unique_ptr<Light> operator()(const DiskLightParams& p) const {
+    return std::make_unique<DiskLight>(name, center(p), facing(p, V3f(0, 1, 0)).z, p.radius, radiance(p),
+                                       p.visible);
   }
 
   std::unique_ptr<Light> operator()(const SphereLightParams& p) const {
-    return std::make_unique<SphereLight>(name, relative_to(p.position, origin).at(frame), p.radius,
-                                         p.radiance * p.intensity.at(frame), p.visible);
+    return std::make_unique<SphereLight>(name, center(p), p.radius, radiance(p), p.visible);
+  }
+
+  std::unique_ptr<Light> operator()(const PointLightParams& p) const {
+    return std::make_unique<SphereLight>(name, center(p), p.radius, radiance(p), p.visible);
+  }
+
+  std::unique_ptr<Light> operator()(const SpotLightParams& p) const {
+    const Axes axes = facing(p, p.up);
+    SpotCone cone{-axes.x, axes.y, axes.z, 0.5f * p.cone * kRadians, p.softness, image(p.file)};
+    return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(cone), radiance(p), p.visible);
+  }
+
+  std::unique_ptr<Light> operator()(const SunLightParams& p) const {
+    const V3f direction = p.direction.at(frame);
+    if (!(direction.length() > 0)) refuse("direction has the length 0");
+    const float half_angle = 0.5f * p.angle * kRadians;
+    return std::make_unique<SunLight>(name, -direction.normalized(), half_angle, radiance(p), p.visible);
+  }
+
+  std::unique_ptr<Light> operator()(const MeshLightParams& p) const {
+    std::vector<MeshLight::Triangle> triangles =
+        with_place_of(p.file, [&] { return triangles_of(read_obj(p.file.path), p.transform.matrix()); });
+    double area = 0;
+    for (MeshLight::Triangle& t : triangles) {
+      for (V3f& corner : t.corners) corner -= origin;
+      area += 0.5 * double{(t.corners[1] - t.corners[0]).cross(t.corners[2] - t.corners[0]).length()};
+    }
+    if (!(area > 0))
+      throw Error(ErrorKind::kInput, p.file.position, quote(p.file.path.string()) + " has no area");
+    const float unit = radiance_of(p.power, static_cast<float>(area));
+    return std::make_unique<MeshLight>(name, std::move(triangles), radiance(p) * unit, p.visible);
   }
 
   std::unique_ptr<Light> operator()(const EnvironmentLightParams& p) const {
-    const Rgb factor = p.radiance * p.intensity.at(frame);
+    const Rgb factor = radiance(p);
     if (p.file.empty()) return std::make_unique<EnvironmentLight>(name, factor, p.visible);
+    return with_place_of(p.file, [&]() -> std::unique_ptr<Light> {
+      return std::make_unique<EnvironmentLight>(name, image(p.file), factor, rotation_xyz(p.rotate),
+                                                p.visible, ledger, [this] { textures.check_stop(); });
+    });
+  }
+
+ private:
+  [[noreturn]] void refuse(const char* what) const {
+    throw Error(ErrorKind::kInput, fmt::format("lights.{}: {} at frame {}", name, what, frame));
+  }
+
+  template <class Params>
+  V3f center(const Params& p) const {
+    return relative_to(p.position, origin).at(frame);
+  }
+
+  template <class Params>
+  Axes facing(const Params& p, const V3f& up) const {
+    const V3f forward = relative_to(p.look_at, origin).at(frame) - center(p);
+    if (!(forward.length() > 0)) refuse("position and look_at are the same point");
+    Axes axes;
+    axes.z = forward.normalized();
+    axes.x = up.cross(axes.z);
+    if (axes.x.length() > 1e-6f * up.length()) {
+      axes.x.normalize();
+    } else {
+      V3f unused;
+      complete_frame(axes.z, axes.x, unused);
+    }
+    axes.y = axes.z.cross(axes.x);
+    return axes;
+  }
+
+  template <class Params>
+  Rgb radiance(const Params& p) const {
+    return p.color() * (p.strength(frame) * p.unit_radiance());
+  }
+
+  std::shared_ptr<const Texture> image(const AssetPath& file) const {
+    if (file.empty()) return nullptr;
+    return with_place_of(file, [&] { return textures.load(file, ColorSpace::kAuto); });
+  }
+
+  /// Makes something from an image. Errors without a place get that of the image's name in the scene.
+  template <class Make>
+  std::invoke_result_t<Make> with_place_of(const AssetPath& file, const Make& make) const {
     try {
-      return std::make_unique<EnvironmentLight>(name, textures.load(p.file, ColorSpace::kAuto), factor,
-                                                rotation_xyz(p.rotate), p.visible, ledger,
-                                                [this] { textures.check_stop(); });
+      return make();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::kStopped) throw;
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) {
         if (problem.position.file.empty()) {
-          problem = {p.file.position, fmt::format("{}: {}", p.file.path.string(), problem.message)};
+          problem = {file.position, fmt::format("{}: {}", file.path.string(), problem.message)};
         }
       }
       throw Error(error.kind(), std::move(problems));
@@ -68,9 +172,23 @@ struct LightMaker {
 
 }  // namespace
 
+float RectangleLightParams::unit_radiance() const {
+  return radiance_of(power, (two_sided ? 2.0f : 1.0f) * size.x * size.y);
+}
+float DiskLightParams::unit_radiance() const { return radiance_of(power, kPi * radius * radius); }
+float SphereLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
+float PointLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
+float SpotLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
+float SunLightParams::unit_radiance() const {
+  const double sine = std::sin(0.5 * double{angle} * kRadians);
+  return irradiance ? static_cast<float>(*irradiance / (std::numbers::pi * sine * sine)) : 1.0f;
+}
+
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
                                   TextureLibrary& textures, MemoryLedger& ledger, const V3f& origin) {
-  return std::visit(LightMaker{name, frame, textures, ledger, origin}, params);
+  std::unique_ptr<Light> light = std::visit(LightMaker{name, frame, textures, ledger, origin}, params);
+  if (!std::visit([](const LightEmission& p) { return p.shadows; }, params)) light->omit_shadows();
+  return light;
 }
 
 }  // namespace pelage

@@ -17,16 +17,32 @@ SphericalRectangle seen_from(const Rectangle& shape, const V3f& normal, const V3
           shape.half_size.y};
 }
 
+/// Mean of an image, from at most 256 x 256 lookups.
+Rgb mean_color(const Texture& image) {
+  const int width = std::min(image.width(), 256), height = std::min(image.height(), 256);
+  V3d sum(0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      sum += V3d(image.color((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                             (static_cast<float>(y) + 0.5f) / static_cast<float>(height)));
+    }
+  }
+  return Rgb(sum / (double{1} * width * height));
+}
+
 }  // namespace
 
 RectangleLight::RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided,
-                               bool visible)
+                               bool visible, std::shared_ptr<const Texture> image)
     : Light(std::move(name), visible),
       shape_(shape),
       normal_(shape.x.cross(shape.y)),
       radiance_(radiance),
       luminance_(luminance(radiance)),
-      two_sided_(two_sided) {}
+      two_sided_(two_sided),
+      image_(std::move(image)) {
+  if (image_) luminance_ = luminance(radiance * mean_color(*image_));
+}
 
 double RectangleLight::solid_angle(const V3f& from) const {
   return seen_from(shape_, normal_, from).solid_angle();
@@ -41,7 +57,9 @@ std::optional<LightSample> RectangleLight::sample(const V3f& from, const V2f& u)
   const V3f x = static_cast<float>(local.x / distance) * shape_.x;
   const V3f y = static_cast<float>(local.y / distance) * shape_.y;
   const V3f z = static_cast<float>(local.z / distance) * normal_;
-  return LightSample{x + y + z, static_cast<float>(distance), radiance_,
+  const V3f on_plane = from - shape_.center + static_cast<float>(distance) * (x + y + z);
+  const V2f place(on_plane.dot(shape_.x) / shape_.half_size.x, on_plane.dot(shape_.y) / shape_.half_size.y);
+  return LightSample{x + y + z, static_cast<float>(distance), radiance_at(place),
                      static_cast<float>(seen.pdf(distance)), normal_};
 }
 
@@ -57,11 +75,9 @@ std::optional<LightHit> RectangleLight::intersect(const V3f& from, const V3f& di
   if (!emits_toward(height) || !(height * descent > 0.0f)) return std::nullopt;
   const float distance = height / descent;
   const V3f on_plane = from_center + distance * direction;
-  if (!(std::abs(on_plane.dot(shape_.x)) <= shape_.half_size.x) ||
-      !(std::abs(on_plane.dot(shape_.y)) <= shape_.half_size.y)) {
-    return std::nullopt;
-  }
-  return LightHit{distance, radiance_, normal_};
+  const float x = on_plane.dot(shape_.x), y = on_plane.dot(shape_.y);
+  if (!(std::abs(x) <= shape_.half_size.x) || !(std::abs(y) <= shape_.half_size.y)) return std::nullopt;
+  return LightHit{distance, radiance_at({x / shape_.half_size.x, y / shape_.half_size.y}), normal_};
 }
 
 float RectangleLight::importance(const V3f& from) const {

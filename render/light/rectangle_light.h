@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
+#include "image/texture.h"
 #include "render/light/light.h"
 
 namespace pelage {
@@ -13,11 +16,13 @@ struct Rectangle {
   V2f half_size{0.5f};
 };
 
-/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]. Where its solid angle is too
-/// small to be computed accurately, the rectangle is sampled uniformly in area instead.
+/// A rectangle of constant radiance, or with an image, sampled uniformly in solid angle [Urena13]. Where its
+/// solid angle is too small to be computed accurately, the rectangle is sampled uniformly in area instead.
 class RectangleLight final : public Light {
  public:
-  RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);
+  /// `image`: factor of the radiance, seen upright and not mirrored from the emitting side; null: 1.
+  RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible,
+                 std::shared_ptr<const Texture> image = {});
 
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
@@ -31,13 +36,18 @@ class RectangleLight final : public Light {
   double solid_angle(const V3f& from) const;
 
  private:
+  /// Returns the radiance of the point `place`, in units of half the sides.
+  Rgb radiance_at(const V2f& place) const {
+    return image_ ? radiance_ * image_->color(0.5f + 0.5f * place.x, 0.5f + 0.5f * place.y) : radiance_;
+  }
   bool emits_toward(float height) const { return two_sided_ ? height != 0.0f : height > 0.0f; }
 
   Rectangle shape_;
   V3f normal_;
   Rgb radiance_;
-  float luminance_;
+  float luminance_;  // mean
   bool two_sided_;
+  std::shared_ptr<const Texture> image_;
 };
 
 }  // namespace pelage

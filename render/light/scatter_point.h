@@ -8,7 +8,9 @@
 
 #include "render/fibre/fibre_bsdf.h"
 #include "render/light/exit_circle.h"
+#include "render/light/magnet_set.h"
 #include "render/light/skin_shadow.h"
+#include "render/sampling/warp.h"
 #include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
 
@@ -51,16 +53,34 @@ class ScatterPoint {
   bool can_hit_own_strand() const { return can_hit_own_strand_; }
 
   FibreValue eval(const V3f& wi) const {
-    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
-    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));
-    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->eval(wi));
+    FibreValue value = eval_lobes(wi);
+    if (magnet_share_ > 0) attract(wi, value);
+    return value;
   }
 
+  /// Samples a direction from the lobes or, where there are magnets, towards one of them.
   std::optional<FibreSample> sample(const V3f& u) const {
-    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->sample(u);
-    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->sample({u.x, u.y}));
-    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
+    if (!(magnet_share_ > 0)) return sample_lobes(u);
+    if (u.z < magnet_share_) {
+      const auto wi = magnets_->sample(position(), {u.x, u.y, std::min(u.z / magnet_share_, kBelowOne)});
+      if (!wi) return std::nullopt;
+      const FibreSample sample{*wi, eval(*wi)};
+      return sample.value.pdf > 0 ? std::optional(sample) : std::nullopt;
+    }
+    const float rest = std::min((u.z - magnet_share_) / (1 - magnet_share_), kBelowOne);
+    std::optional<FibreSample> sample = sample_lobes({u.x, u.y, rest});
+    if (sample) attract(sample->wi, sample->value);
+    return sample;
   }
+  /// `magnets` must outlive the point.
+  void set_magnets(const MagnetSet& magnets) {
+    magnets_ = &magnets;
+    magnet_share_ = magnets.share(position());
+  }
+
+  /// The coat or skin of the point, for lights that do not illuminate all; empty: every light illuminates it.
+  void set_part(const FramePart& part) { part_ = part; }
+  bool receives(const Light& light) const { return !part_ || light.illuminates(*part_); }
 
   /// Stores the ball inside the skin below this point.
   void set_shadow(const SkinShadow& shadow) { shadow_ = shadow; }
@@ -97,6 +117,23 @@ class ScatterPoint {
   /// Distance of start() from the axis, in radii.
   static constexpr float kJustOutside = 1.001f;
 
+  /// Adds the density of sampling the magnets to that of sampling the lobes.
+  void attract(const V3f& wi, FibreValue& value) const {
+    const float lobes = value.pdf;
+    value.pdf = (1 - magnet_share_) * lobes + magnets_->pdf(position(), wi);
+    if (lobes > 0) value.attraction = value.pdf / lobes;
+  }
+  FibreValue eval_lobes(const V3f& wi) const {
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->eval(wi));
+  }
+  std::optional<FibreSample> sample_lobes(const V3f& u) const {
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->sample(u);
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->sample({u.x, u.y}));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
+  }
+
   /// Converts the scattering of a skin to the lobe groups of fibres: a clear coat is the primary highlight,
   /// everything else is diffuse.
   static FibreValue as_fibre(const SurfaceValue& value) { return {{value.rho, Rgb(0), Rgb(0)}, value.pdf}; }
@@ -116,6 +153,9 @@ class ScatterPoint {
   V3f skin_normal_{0};     // zero: far from the root
   float skin_height_ = 1;  // of the skin above the axis, along the normal
   SkinShadow shadow_;
+  std::optional<FramePart> part_;
+  const MagnetSet* magnets_ = nullptr;
+  float magnet_share_ = 0;  // MagnetSet::share()
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

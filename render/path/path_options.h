@@ -10,6 +10,7 @@ class SkinShadows;
 
 struct PathOptions {
   DirectTechniques direct = DirectTechniques::kBoth;
+  LightChoice choice = LightChoice::kLobes;
   bool roulette = true;  ///< whether roulette may end paths early
   /// Where points on lights come from; null: Light::sample().
   const FarLightSamples* far_lights = nullptr;

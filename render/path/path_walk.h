@@ -27,6 +27,7 @@ struct PathState {
   Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
   Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
+  float attraction = 1;    ///< product of FibreValue::attraction of the same vertices
 };
 
 /// What a path does at a vertex that it has reached.
@@ -68,7 +69,8 @@ class PathWalk {
         accel_(accel),
         shading_(shading),
         options_(options),
-        direct_(scene.lights, scene.render.light_samples, options.direct, options.far_lights) {}
+        direct_(scene.lights, scene.render.light_samples, options.direct, options.far_lights,
+                options.choice) {}
 
   /// Follows a path from its first vertex to its end. `first`: position and scattering of the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
@@ -89,8 +91,12 @@ class PathWalk {
   /// Returns the probability that roulette continues a path of this weight: the light that the path may still
   /// contribute, divided by the brightness of the pixel [Vorba16]; at most 1. If the probability were the
   /// weight itself, roulette would also end paths that contribute as much as others. In pale fur, it would
-  /// save a quarter of the rays, but increase the variance by two thirds.
-  static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
+  /// save a quarter of the rays, but increase the variance by two thirds. `attraction`: what the weight would
+  /// be larger by without magnets. They send many rays of low weight to where much light is expected, so the
+  /// light that such a ray may still contribute is not small.
+  static float survival(const Rgb& weight, float attraction) {
+    return std::min(1.0f, attraction * max_component(weight) / kShown);
+  }
 
  private:
   /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
@@ -172,7 +178,7 @@ class PathWalk {
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
-  return value.pdf * survival(path.weight * (value.total() / value.pdf));
+  return value.pdf * survival(path.weight * (value.total() / value.pdf), path.attraction * value.attraction);
 }
 
 template <class Sink>
@@ -198,6 +204,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   direct_.choose(shadow_rays(path), path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
+    ray.casters = to.casters;
     sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
 }
@@ -239,6 +246,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
     path.throughput *= value.total() / value.pdf;
   }
   path.weight *= value.total() / value.pdf;
+  path.attraction *= value.attraction;
   if (!(max_component(path.weight) > 0)) return false;
 
   Ray ray = leaving_ray(point, sample->wi, path);
@@ -248,7 +256,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
   }
   float survived = 1;
   if (options_.roulette) {
-    survived = survival(path.weight);
+    survived = survival(path.weight, path.attraction);
     seek(path, VertexDimension::kRoulette);
     if (path.stream.next1d() >= survived) return false;
     path.throughput /= survived;

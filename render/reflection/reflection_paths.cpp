@@ -96,9 +96,10 @@ void ReflectionPaths::follow(int x, int y, uint32_t sample, const CellRange& cel
   path.random = from.ray.random;
   for (int g = 0; g < kLobeGroups; ++g) path.first[g] = scattered->value.lobes[g] / scattered->value.pdf;
   path.weight = scattered->value.total() / scattered->value.pdf;
+  path.attraction = scattered->value.attraction;
   if (!(max_component(path.weight) > 0)) return;
   if (options_.roulette) {
-    const float survived = PathWalk<Recorder>::survival(path.weight);
+    const float survived = PathWalk<Recorder>::survival(path.weight, path.attraction);
     seek(stream, VertexDimension::kRoulette);
     if (stream.next1d() >= survived) return;
     path.weight /= survived;

@@ -27,6 +27,7 @@ struct FrameScene {
   const std::vector<SkinPart>& skins;
   const std::vector<MaterialParams>& materials;
   const LightSet& lights;
+  const MagnetSet& magnets;
   const Camera& camera;
   const ImageParams& image;
   const RenderParams& render;
@@ -44,6 +45,7 @@ struct FrameScene {
         skins(scene.skins),
         materials(scene.materials),
         lights(scene.lights),
+        magnets(scene.magnets),
         camera(scene.camera),
         image(image_params),
         render(render_params) {}

@@ -13,6 +13,7 @@
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_set.h"
+#include "render/light/magnet_set.h"
 #include "render/material/material.h"
 #include "render/scene/render_params.h"
 
@@ -32,6 +33,8 @@ struct FurPart {
   std::optional<uint32_t> skin = {};       ///< index in RenderScene::skins of the skin below the strands
   /// The skin whose motion from frame to frame the strands follow; null: only their motion keys are known.
   std::shared_ptr<const DeferredSkin> follows = {};
+  /// Name of the coat that this one copies, such as "rat.under" for "colony.17.under"; its own otherwise.
+  std::string prototype = {};
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.
@@ -43,6 +46,7 @@ struct SkinPart {
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies the colour of the skin
   std::optional<Simplification> lod = {};  ///< of the densest coat on the skin; empty: not reduced
+  std::string prototype = {};              ///< as FurPart::prototype
 };
 
 /// Everything that a renderer needs for one frame. Positions are in world space, relative to `origin`.
@@ -57,6 +61,7 @@ struct RenderScene {
   /// World position of the point (0, 0, 0). Near the coats if these are so far from the world's origin that
   /// floats would not resolve their strands; otherwise 0.
   V3f origin{0};
+  MagnetSet magnets = {};
 };
 
 }  // namespace pelage

@@ -11,8 +11,8 @@
 namespace pelage {
 namespace {
 
-// Distant and point lights are small spheres.
-constexpr float kDistance = 10'000, kDistantHalfAngle = 0.25f, kPointRadius = 0.05f;
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kDistantAngle = 0.5f;  // degrees; shadows of distant lights are nearly sharp
 // The names of maps end with these, see TextureLibrary. Maps of other renderers are not lat-long images.
 constexpr const char* kMapEndings[] = {".hdr", ".exr", ".tif", ".tiff", ".tx", ".png", ".jpg", ".jpeg"};
 
@@ -55,6 +55,11 @@ class LightBlock {
       radiance_[c] = std::isfinite(radiance_[c]) ? std::max(radiance_[c], 0.0f) : 0;
     }
     if (!(light_.is_ris ? ris() : light_.shape == RibLight::Shape::kPoint ? by_name() : area())) return {};
+    if (float_setting(shader_, "enableTemperature", 0) != 0) {
+      // Those of the renderer are clamped, too.
+      put("temperature", std::clamp(float_setting(shader_, "temperature", 6500), 1667.0f, 25000.0f));
+    }
+    if (float_setting(shader_, "enableShadows", 1) == 0) put("shadows", "false");
     const bool visible = light_.visible && !contains("distant");
     if (visible || is("environment")) put("visible", visible ? "true" : "false");
     return std::move(block_);
@@ -82,13 +87,12 @@ class LightBlock {
       environment();
     } else if (contains("distant") || contains("direction") || contains("dirlight") || contains("sun")) {
       return distant(color_setting(shader_, "from", V3f(0)), color_setting(shader_, "to", V3f(0, 0, 1)),
-                     kDistantHalfAngle);
-    } else if (contains("point") || contains("spot") || from || is_unknown()) {
-      if (contains("spot") || to) difference_ = "shines in all directions, not in a cone";
+                     kDistantAngle);
+    } else if (contains("spot") || (to && (from || is_unknown()))) {
+      return spot();
+    } else if (contains("point") || from || is_unknown()) {
       if (is_unknown() && !from) difference_ = "is not known; it shines from its origin in all directions";
-      V3f position;
-      matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), position);
-      sphere(position, kPointRadius, radiance_ / (kPointRadius * kPointRadius));
+      lamp("point");
     } else if (contains("area")) {
       return square(0.5f, 1);
     } else {
@@ -115,10 +119,12 @@ class LightBlock {
   bool ris() {
     if (contains("dome") || contains("env")) {
       environment();
-    } else if (contains("rect") || contains("portal") || contains("disk")) {
-      return square(contains("disk") ? 0.25f * std::sqrt(std::numbers::pi_v<float>) : 0.5f, -1);
+    } else if (contains("rect") || contains("portal")) {
+      return square(0.5f, -1);
+    } else if (contains("disk")) {
+      return disk();
     } else if (contains("distant")) {
-      return distant(V3f(0), V3f(0, 0, -1), 0.5f * float_setting(shader_, "angleExtent", 0.53f));
+      return distant(V3f(0), V3f(0, 0, -1), float_setting(shader_, "angleExtent", 0.53f));
     } else if (contains("sphere") || contains("cylinder")) {
       if (contains("cylinder")) difference_ = "is a sphere";
       sphere(V3f(0) * matrix_, 0.5f * scale(), radiance_);
@@ -130,13 +136,55 @@ class LightBlock {
 
   float scale() const { return std::cbrt(std::abs(matrix_.determinant())); }
 
-  /// Its irradiance is `radiance_` times pi, whatever its size.
-  bool distant(V3f from, V3f to, float half_angle) {
+  /// Its irradiance is `radiance_` times pi, whatever its size. `angle`: diameter in degrees.
+  bool distant(V3f from, V3f to, float angle) {
     matrix_.multVecMatrix(V3f(from), from);
     matrix_.multVecMatrix(V3f(to), to);
     if (!((to - from).length() > 0)) return false;
-    const float sine = std::sin(std::clamp(half_angle, 0.01f, 60.0f) * (std::numbers::pi_v<float> / 180));
-    sphere(-(to - from).normalized() * kDistance, kDistance * sine, radiance_ / (sine * sine));
+    put("type", "sun");
+    put("direction", (to - from).normalized());
+    put("angle", std::clamp(angle, 0.02f, 120.0f));
+    put("irradiance", kPi);
+    put("radiance", radiance_);
+    return true;
+  }
+
+  /// A small lamp of the radiant intensity pi * radiance_.
+  void lamp(const char* type) {
+    V3f position;
+    matrix_.multVecMatrix(color_setting(shader_, "from", V3f(0)), position);
+    put("type", type);
+    put("position", position);
+    put("power", 4 * kPi * kPi);
+    put("radiance", radiance_);
+  }
+
+  /// The standard shader's cosine between the borders of its cone has the same cubic step as ours.
+  bool spot() {
+    V3f from = color_setting(shader_, "from", V3f(0)), to = color_setting(shader_, "to", V3f(0, 0, 1));
+    matrix_.multVecMatrix(V3f(from), from);
+    matrix_.multVecMatrix(V3f(to), to);
+    if (!((to - from).length() > 0)) return false;
+    const float half = std::clamp(float_setting(shader_, "coneangle", kPi / 6), 1e-3f, 85 * kPi / 180);
+    lamp("spot");
+    put("look_at", to);
+    put("cone", half * (360 / kPi));
+    put("softness", std::clamp(float_setting(shader_, "conedeltaangle", kPi / 36) / half, 0.0f, 1.0f));
+    if (float_setting(shader_, "beamdistribution", 0) > 0)
+      difference_ = "is as bright beside its axis as on it";
+    return true;
+  }
+
+  bool disk() {
+    V3f center = V3f(0) * matrix_, forward;
+    matrix_.multDirMatrix(V3f(0, 0, -1), forward);
+    const float area = matrix_.determinant() / forward.length();
+    if (!(forward.length() > 0) || !(std::abs(area) > 0)) return false;
+    put("type", "disk");
+    put("position", center);
+    put("look_at", center + forward);
+    put("radius", 0.5f * std::sqrt(std::abs(area)));
+    put("radiance", radiance_);
     return true;
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rib/host/shading_rib.h"
 
-#include <numbers>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/value_readers.h"
 #include "render/sampling/warp.h"
@@ -53,18 +54,23 @@ struct LightWriter {
   double frame;
   int32_t handle;
 
-  void parameters(const Rgb& radiance, float intensity) const {
+  /// `factor`: of the radiance, for shaders whose intensity is no radiance.
+  template <class Params>
+  void parameters(const Params& p, float factor = 1) const {
+    const Rgb color = p.color() * (p.unit_radiance() * factor);
     rib.parameter("string name").texts({name});
-    rib.parameter("color lightcolor").numbers({radiance.x, radiance.y, radiance.z});
-    rib.parameter("float intensity").numbers({intensity});
+    rib.parameter("color lightcolor").numbers({color.x, color.y, color.z});
+    rib.parameter("float intensity").numbers({p.strength(frame)});
     rib.parameter("string pelage").texts({yaml_text(block)});
   }
   /// `axis`: direction of emission; 0 for all directions. `area`: as seen from there.
-  void begin_area(const Rgb& radiance, float intensity, const V3f& from, const V3f& axis, float area) const {
+  template <class Params>
+  void begin_area(const Params& p, const V3f& axis, float area) const {
+    const V3f from = p.position.at(frame);
     rib.request("AttributeBegin");
     rib.request("Attribute").text("identifier").parameter("string name").texts({name});
     rib.request("AreaLightSource").text("arealight").integer(handle);
-    parameters(radiance, intensity);
+    parameters(p);
     // For renderers whose lights are points.
     rib.parameter("point from").numbers({from.x, from.y, from.z});
     rib.parameter("vector axis").numbers({axis.x, axis.y, axis.z});
@@ -75,9 +81,23 @@ struct LightWriter {
     rib.request("Illuminate").integer(handle).integer(1);
   }
 
+  void polygon(const std::vector<V3f>& points) const {
+    std::vector<float> corners;
+    for (const V3f& corner : points) corners.insert(corners.end(), {corner.x, corner.y, corner.z});
+    rib.request("Polygon").parameter("P").numbers(corners);
+  }
+  template <class Params>
+  void sphere(const Params& p) const {
+    const V3f center = p.position.at(frame);
+    begin_area(p, V3f(0), kPi * p.radius * p.radius);
+    rib.request("Translate").number(center.x).number(center.y).number(center.z);
+    rib.request("Sphere").number(p.radius).number(-p.radius).number(p.radius).number(360);
+    end_area();
+  }
+
   void operator()(const RectangleLightParams& p) const {
     const V3f center = p.position.at(frame), normal = (p.look_at.at(frame) - center).normalized();
-    begin_area(p.radiance, p.intensity.at(frame), center, normal, p.size.x * p.size.y);
+    begin_area(p, normal, p.size.x * p.size.y);
     V3f x = p.up.cross(normal), y;
     if (x.length() > 1e-6f * p.up.length()) {
       x.normalize();
@@ -87,25 +107,57 @@ struct LightWriter {
     y = normal.cross(x);
     x *= 0.5f * p.size.x;
     y *= 0.5f * p.size.y;
-    std::vector<float> corners;
-    for (const V3f& corner : {center - x - y, center + x - y, center + x + y, center - x + y})
-      corners.insert(corners.end(), {corner.x, corner.y, corner.z});
-    rib.request("Polygon").parameter("P").numbers(corners);
+    polygon({center - x - y, center + x - y, center + x + y, center - x + y});
     end_area();
   }
-  void operator()(const SphereLightParams& p) const {
-    const V3f center = p.position.at(frame);
-    begin_area(p.radiance, p.intensity.at(frame), center, V3f(0),
-               std::numbers::pi_v<float> * p.radius * p.radius);
-    rib.request("Translate").number(center.x).number(center.y).number(center.z);
-    rib.request("Sphere").number(p.radius).number(-p.radius).number(p.radius).number(360);
+  void operator()(const DiskLightParams& p) const {
+    const V3f center = p.position.at(frame), normal = (p.look_at.at(frame) - center).normalized();
+    begin_area(p, normal, kPi * p.radius * p.radius);
+    V3f x, y;
+    complete_frame(normal, x, y);
+    constexpr int kCorners = 32;
+    std::vector<V3f> corners;
+    for (int i = 0; i < kCorners; ++i) {
+      const float turn = 2 * kPi * static_cast<float>(i) / kCorners;
+      corners.push_back(center + p.radius * (std::cos(turn) * x + std::sin(turn) * y));
+    }
+    polygon(corners);
     end_area();
+  }
+  void operator()(const SphereLightParams& p) const { sphere(p); }
+  void operator()(const PointLightParams& p) const { sphere(p); }
+  // Surfaces of the standard shaders reflect color * intensity of these lights, without a factor 1 / pi.
+  void operator()(const SpotLightParams& p) const {
+    const V3f from = p.position.at(frame), to = p.look_at.at(frame);
+    const float half_angle = 0.5f * p.cone * (kPi / 180);
+    rib.request("LightSource").text("spotlight").integer(handle);
+    parameters(p, p.radius * p.radius);
+    rib.parameter("point from").numbers({from.x, from.y, from.z});
+    rib.parameter("point to").numbers({to.x, to.y, to.z});
+    rib.parameter("float coneangle").numbers({half_angle});
+    rib.parameter("float conedeltaangle").numbers({half_angle * p.softness});
+    rib.parameter("float beamdistribution").numbers({0});
+  }
+  void operator()(const SunLightParams& p) const {
+    const V3f to = p.direction.at(frame);
+    const float sine = std::sin(0.5f * p.angle * (kPi / 180));
+    rib.request("LightSource").text("distantlight").integer(handle);
+    parameters(p, sine * sine);
+    rib.parameter("point from").numbers({0, 0, 0});
+    rib.parameter("point to").numbers({to.x, to.y, to.z});
+  }
+  // Only Pelage knows the mesh; to other renderers, the light is a point where the file's origin is.
+  void operator()(const MeshLightParams& p) const {
+    const V3f from = V3f(0) * p.transform.matrix();
+    rib.request("LightSource").text("pointlight").integer(handle);
+    parameters(p);
+    rib.parameter("point from").numbers({from.x, from.y, from.z});
   }
   void operator()(const EnvironmentLightParams& p) const {
     rib.request("LightSource").text("envlight").integer(handle);
     if (const Value* file = block.find("file"); file && !p.file.empty())
       rib.parameter("string filename").texts({file->text()});
-    parameters(p.radiance, p.intensity.at(frame));
+    parameters(p);
   }
 };
 
@@ -132,7 +184,13 @@ void write_material(RibWriter& rib, const SceneDescription& scene, const Value& 
 void write_lights(RibWriter& rib, const SceneDescription& scene, const Value& document, double frame) {
   int32_t handle = 0;
   for (const auto& [name, position, light] : scene.lights.items) {
-    const Value& block = *document.find("lights")->find(name);
+    // A RIB file has other names for the parts that lights are linked to, so it has no links.
+    const Value& written = *document.find("lights")->find(name);
+    std::vector<Value::Entry> entries = written.entries();
+    std::erase_if(entries, [](const Value::Entry& entry) {
+      return entry.key == "illuminates" || entry.key == "shadowed_by";
+    });
+    const Value block = Value::map(written.position(), std::move(entries));
     std::visit(LightWriter{rib, name, block, frame, ++handle}, light);
   }
 }

@@ -33,13 +33,16 @@ characters:
 crowds: {pack: {of: [rat], count: 7, area: {type: disc}}}
 lights:
   key: {type: sphere, radius: 2}
+  sun: {type: sun, temperature: 5000, visible: true, illuminates: [rat.under, pack], shadowed_by: []}
+magnets: {window: {type: rectangle}}
 )";
   const std::string text = describe_scene(load_scene(path));
   EXPECT_EQ(text.substr(0, 55), "scene, 1280 x 720 pixels, frames 1-4, 64 samples, 4 bou");
   for (const char* part :
        {"2 skins\n", "12 poses", "under: 1000 strands with 8 points on rat, under: length, clump\n",
         "rat: rat in hide with under in fur, loose in fur; eyes in hide\n", "1 crowds\n  pack: 7 of rat\n",
-        "key: sphere\n"}) {
+        "key: sphere\n", "1 magnets\n  window: rectangle\n",
+        "sun: sun, 5000 K, visible, illuminates rat.under, pack, shadowed by nothing\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
 }

@@ -263,7 +263,8 @@ TEST_F(SceneSchema, MistakesOfAllKindsComeInFileOrder) {
                    "s:3:20: duplicate key 'fov', first on line 3", "s:4:18: crowd needs the key 'count'",
                    "s:4:19: unknown key 'cout' in crowd; did you mean 'count'?",
                    "s:4:42: expected rectangle | disc | polygon, got 'disk'; did you mean 'disc'?",
-                   "s:6:8: the block needs the key 'type': rectangle | sphere | environment",
+                   "s:6:8: the block needs the key 'type': rectangle | disk | sphere | point | spot | sun | "
+                   "mesh | environment",
                    "s:7:16: expected a whole number 1 .. 65536, got 0"}));
   EXPECT_EQ(problems("frames: 1\n"), Lines{"s:1:1: scene needs the key 'pelage'"});
 }

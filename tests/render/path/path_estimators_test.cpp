@@ -72,6 +72,22 @@ void expect_same(const Estimate& a, const Estimate& b) {
   EXPECT_LT(error, 0.02 * a.mean);
 }
 
+TEST(PathEstimators, BothRulesForChoosingLightsAgree) {
+  FurryScene scene;
+  for (int i = 0; i < 12; ++i) {  // more than are listed: they are in a tree
+    PointLightParams lamp;
+    lamp.position =
+        V3f(4 * std::cos(0.5f * static_cast<float>(i)), 1.5f, 4 * std::sin(0.5f * static_cast<float>(i)));
+    lamp.radius = 0.1f;
+    lamp.power = 60;
+    scene.add_light("lamp" + std::to_string(i), lamp);
+  }
+  scene.render.bounces = 1;
+  PathOptions film;
+  film.choice = LightChoice::kImportance;
+  expect_same(estimate(scene, film, 0, 8), estimate(scene, {}, 100, 8));
+}
+
 TEST(PathEstimators, LightsLobesAndBothAgree) {
   FurryScene scene;
   scene.render.bounces = 1;

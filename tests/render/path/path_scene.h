@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "image/texture_library.h"
 #include "render/fibre/fibre_material.h"
 #include "render/light/light_params.h"
+#include "render/light/magnet_params.h"
 #include "render/render_frame.h"
 #include "render/sampling/sample_stream.h"
 #include "render/sampling/warp.h"
@@ -80,6 +82,10 @@ class PathScene {
                       Camera(camera, 1, image.width, image.height),
                       image,
                       render};
+    if (link) link(scene.lights);
+    std::vector<MagnetSet::Magnet> attracting;
+    for (const auto& [name, params] : magnets) attracting.push_back(make_magnet(name, params, 1));
+    scene.magnets = MagnetSet(std::move(attracting));
     FrameResult result = render_frame(scene, {workers, ledger, progress}, options);
     statistics += result.statistics;
     fur = std::move(scene.fur);
@@ -93,6 +99,8 @@ class PathScene {
   std::vector<SkinPart> skins;
   std::vector<MaterialParams> materials;
   std::vector<std::pair<std::string, LightParams>> lights;
+  std::vector<std::pair<std::string, MagnetParams>> magnets;
+  std::function<void(LightSet&)> link;  ///< calls Light::link(); may be empty
   MemoryLedger ledger;
   FrameStatistics statistics;  ///< of all runs
 };

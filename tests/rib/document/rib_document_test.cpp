@@ -148,7 +148,7 @@ TEST_F(RibDocumentTest, LightsAndMaterialsOfOtherPrograms) {
   ASSERT_EQ(scene.lights.items.size(), 3u);
   EXPECT_TRUE(std::holds_alternative<EnvironmentLightParams>(scene.lights.items[0].value));
   EXPECT_EQ(scene.lights.items[0].name, "sky");
-  EXPECT_TRUE(std::holds_alternative<SphereLightParams>(scene.lights.items[1].value));
+  EXPECT_TRUE(std::holds_alternative<PointLightParams>(scene.lights.items[1].value));
   EXPECT_EQ(scene.lights.items[1].name, "pointlight");
   const auto& quad = std::get<RectangleLightParams>(scene.lights.items[2].value);
   EXPECT_EQ(quad.size, V2f(2, 1));
@@ -198,11 +198,15 @@ TEST_F(RibDocumentTest, LightsOfOldShadersAreNoBackground) {
   EXPECT_EQ(environment(1).file.path, folder_.path() / "sky.hdr");
   EXPECT_TRUE(environment(2).file.empty());
   EXPECT_TRUE(environment(3).file.empty());
-  EXPECT_EQ(std::get<SphereLightParams>(scene.lights.items[4].value).position.at(1), V3f(1, 2, -3));
-  EXPECT_GT(std::get<SphereLightParams>(scene.lights.items[5].value).radius, 10);
+  const auto& spot = std::get<SpotLightParams>(scene.lights.items[4].value);
+  EXPECT_EQ(spot.position.at(1), V3f(1, 2, -3));
+  EXPECT_EQ(spot.look_at.at(1), V3f(0));
+  EXPECT_NEAR(spot.cone, 60, 1e-4) << "the standard shader's default is half of it";
+  EXPECT_NEAR(spot.softness, 1 / 6.0, 1e-5);
+  EXPECT_EQ(std::get<SunLightParams>(scene.lights.items[5].value).direction.at(1), V3f(0, 0, -1));
   const auto& polygon = std::get<RectangleLightParams>(scene.lights.items[6].value);
   EXPECT_NEAR(polygon.size.x * polygon.size.y, 5, 1e-5);
-  EXPECT_EQ(scene.warnings.size(), 4u) << "the missing map, the map of another kind, the cone, the polygon";
+  EXPECT_EQ(scene.warnings.size(), 3u) << "the missing map, the map of another kind, the polygon";
 }
 
 TEST_F(RibDocumentTest, LightsOfUnknownShadersShineFromTheirOrigin) {
@@ -210,8 +214,8 @@ TEST_F(RibDocumentTest, LightsOfUnknownShadersShineFromTheirOrigin) {
       "Projection \"perspective\" Scale 1 1 -1 WorldBegin TransformBegin Translate 1 2 3 LightSource "
       "\"uberlight\" 1 TransformEnd LightSource \"stagelight\" 2 \"from\" [4 5 6] WorldEnd");
   ASSERT_EQ(scene.lights.items.size(), 2u);
-  EXPECT_EQ(std::get<SphereLightParams>(scene.lights.items[0].value).position.at(1), V3f(1, 2, 3));
-  EXPECT_EQ(std::get<SphereLightParams>(scene.lights.items[1].value).position.at(1), V3f(4, 5, 6));
+  EXPECT_EQ(std::get<PointLightParams>(scene.lights.items[0].value).position.at(1), V3f(1, 2, 3));
+  EXPECT_EQ(std::get<PointLightParams>(scene.lights.items[1].value).position.at(1), V3f(4, 5, 6));
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].message.find("'uberlight' is not known"), std::string::npos);
 }
@@ -234,8 +238,12 @@ TEST_F(RibDocumentTest, LightsOfRis) {
       "[1] \"color lightColor\" [1 .5 .25] AttributeBegin Translate 0 5 0 Scale 4 2 1 Light \"PxrRectLight\" "
       "\"rect\" "
       "AttributeEnd Attribute \"visibility\" \"int camera\" [0] Light \"PxrSphereLight\" \"ball\" Light "
-      "\"PxrDistantLight\" \"sun\" \"float angleExtent\" [2] Light \"PxrMeshLight\" \"mesh\" WorldEnd");
-  ASSERT_EQ(scene.lights.items.size(), 4u);
+      "\"PxrDistantLight\" \"sun\" \"float angleExtent\" [2] \"int enableTemperature\" [1] \"float "
+      "temperature\" [3000] "
+      "AttributeBegin Translate 0 3 0 Rotate -90 1 0 0 Scale 4 1 7 Light \"PxrDiskLight\" \"disk\" \"int "
+      "enableShadows\" [0] "
+      "AttributeEnd Light \"PxrMeshLight\" \"mesh\" WorldEnd");
+  ASSERT_EQ(scene.lights.items.size(), 5u);
   const auto& dome = std::get<EnvironmentLightParams>(scene.lights.items[0].value);
   EXPECT_EQ(scene.lights.items[0].name, "dome");
   EXPECT_EQ(dome.radiance, Rgb(4, 2, 1));
@@ -247,9 +255,15 @@ TEST_F(RibDocumentTest, LightsOfRis) {
   const auto& ball = std::get<SphereLightParams>(scene.lights.items[2].value);
   EXPECT_FLOAT_EQ(ball.radius, .5f);
   EXPECT_FALSE(ball.visible);
-  const auto& sun = std::get<SphereLightParams>(scene.lights.items[3].value);
-  EXPECT_NEAR(sun.radius / sun.position.at(1).length(), std::sin(M_PI / 180), 1e-6);
+  const auto& sun = std::get<SunLightParams>(scene.lights.items[3].value);
+  EXPECT_EQ(sun.angle, 2);
+  EXPECT_NEAR(*sun.irradiance, M_PI, 1e-5);
+  EXPECT_EQ(sun.temperature, 3000.0f);
   EXPECT_FALSE(sun.visible) << "in no renderer";
+  const auto& disk = std::get<DiskLightParams>(scene.lights.items[4].value);
+  EXPECT_NEAR(disk.radius, 1, 1e-5) << "the area of the ellipse";
+  EXPECT_NEAR((disk.look_at.at(1) - disk.position.at(1)).normalized().y, -1, 1e-5);
+  EXPECT_FALSE(disk.shadows);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].message.find("PxrMeshLight"), std::string::npos);
 }

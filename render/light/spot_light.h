@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "image/texture.h"
+#include "render/light/sphere_light.h"
+
+namespace pelage {
+
+/// The directions in which a spot shines, and how brightly.
+struct SpotCone {
+  V3f x{1, 0, 0}, y{0, 1, 0}, axis{0, 0, 1};  ///< unit, perpendicular; the spot shines along `axis`
+  float half_angle = 0.35f;                   ///< radians, less than pi / 2
+  float softness = 0;  ///< the spot fades over this fraction of the half angle, from 0 to 1
+  std::shared_ptr<const Texture> gobo = {};  ///< pattern in the square around the cone; null: none
+
+  /// Returns the factor of the radiance in a direction (unit) from the spot.
+  Rgb factor(const V3f& direction) const;
+};
+
+/// A sphere whose radiance depends on the direction: a spotlight. Sampled as SphereLight; directions outside
+/// the cone are no samples.
+class SpotLight final : public Light {
+ public:
+  /// `radiance`: on the axis of the cone.
+  SpotLight(std::string name, const V3f& center, float radius, SpotCone cone, const Rgb& radiance,
+            bool visible);
+
+  std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
+  float pdf(const V3f& from, const V3f& direction) const override;
+  std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
+  /// As Light::importance(), with an upper bound of the cone's factor and without the gobo.
+  float importance(const V3f& from) const override;
+  std::optional<LightBall> ball() const override { return sphere_.ball(); }
+
+ private:
+  SphereLight sphere_;
+  SpotCone cone_;
+};
+
+}  // namespace pelage
