@@ -21,15 +21,18 @@ std::vector<std::filesystem::path> search_folders() {
   std::vector<std::filesystem::path> folders;
   std::error_code error;
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
+  Dl_info own{};
+  std::filesystem::path library;
+  if (::dladdr(reinterpret_cast<const void*>(&own_address), &own) != 0 && own.dli_fname) {
+    std::error_code unknown;
+    library = std::filesystem::canonical(own.dli_fname, unknown);
+  }
+  if (!library.empty() && library != executable) {
+    folders.push_back(library.parent_path());  // the executable belongs to somebody else
+  } else if (!error) {
     const std::filesystem::path prefix = executable.parent_path().parent_path();
     folders.push_back(prefix / "lib");
     folders.push_back(prefix / "lib" / "pelage");
-  }
-  Dl_info own{};
-  if (::dladdr(reinterpret_cast<const void*>(&own_address), &own) != 0 && own.dli_fname) {
-    const std::filesystem::path library = std::filesystem::canonical(own.dli_fname, error);
-    if (!error && library != executable) folders.push_back(library.parent_path());
   }
   if (const char* list = std::getenv("PELAGE_MODULE_PATH")) {
     const std::string paths = list;
