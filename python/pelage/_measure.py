@@ -3,30 +3,29 @@
 
 from __future__ import annotations
 
-import json
 import os
-import shutil
-import subprocess
-import tempfile
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from ._values import changes
 
 
-def program() -> Path:
+def program() -> str:
     """Returns the program `pelage` of this installation: PELAGE_PROGRAM, the one beside the package, or on PATH."""
+    import shutil
+
     named = os.environ.get("PELAGE_PROGRAM")
     if named:
-        return Path(named)
-    for folder in Path(__file__).resolve().parents:
-        if (folder / "bin" / "pelage").is_file():
-            return folder / "bin" / "pelage"
+        return named
+    folder = os.path.dirname(os.path.realpath(__file__))
+    while os.path.dirname(folder) != folder:
+        folder = os.path.dirname(folder)
+        if os.path.isfile(os.path.join(folder, "bin", "pelage")):
+            return os.path.join(folder, "bin", "pelage")
     found = shutil.which("pelage")
     if found is None:
         raise FileNotFoundError("the program 'pelage' is neither beside the package nor on PATH; set PELAGE_PROGRAM")
-    return Path(found)
+    return found
 
 
 def measure(
@@ -38,8 +37,12 @@ def measure(
     and lists of them. options: flags of the command, `time_limit=60` for --time-limit 60; lists are joined by commas.
     Raises RuntimeError with what the command says if it fails.
     """
+    import json
+    import subprocess
+    import tempfile
+
     with tempfile.TemporaryDirectory(prefix="pelage-") as folder:
-        command = [str(program()), "measure", experiment, os.fspath(scene), "-o", folder, "--quiet"]
+        command = [program(), "measure", experiment, os.fspath(scene), "-o", folder, "--quiet"]
         for key, value in changes(set or {}).items():
             command += ["--set", f"{key}={_yaml(value)}"]
         for name, value in options.items():
@@ -48,7 +51,8 @@ def measure(
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stderr.strip() or f"pelage measure ended with exit code {done.returncode}")
-        report: dict[str, Any] = json.loads((Path(folder) / "report.json").read_text(encoding="utf-8"))
+        with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+            report: dict[str, Any] = json.load(file)
         return report
 
 

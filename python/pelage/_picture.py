@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +37,8 @@ class Picture(Layers):
     @property
     def stats(self) -> dict[str, Any]:
         """What `pelage render --stats` writes, for this frame: times in seconds, memory in bytes, counts."""
+        import json
+
         statistics: dict[str, Any] = json.loads(self._statistics)
         return statistics
 

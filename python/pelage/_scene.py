@@ -23,7 +23,8 @@ class Scene:
 
     Scene(values) makes a scene from a dict with the keys of a scene file (`pelage.schema()`, docs/MANUAL.md). A value
     is a number, text, a list, a dict, a numpy array, a Mesh in place of an OBJ file, or Strands in place of a
-    strand file. Relative names of files start at the current folder. `pelage.open(path)` reads a file.
+    strand file. `pelage: 1`, the version of the format, need not be given. Relative names of files start at the current
+    folder. `pelage.open(path)` reads a file.
 
     threads: number of threads; 0 means all processors. The pixels do not depend on it.
 
@@ -34,7 +35,8 @@ class Scene:
     def __init__(self, values: Mapping[str, Any], *, threads: int = 0) -> None:
         if not isinstance(values, Mapping):
             raise TypeError(f"values: expected a dict, got {type(values).__name__}")
-        self._take(_pelage.make_scene(scene_value(values, ""), {}, _thread_count(threads)))
+        document = scene_value({"pelage": 1, **values}, "")
+        self._take(_pelage.make_scene(document, {}, _thread_count(threads)))
 
     def _take(self, session: _pelage.Session) -> None:
         self._session = session

@@ -23,7 +23,8 @@ class Strands:
     Strand i has the points offsets[i] .. offsets[i + 1] - 1, from root to tip.
 
     points: (n, k, 3), n strands with k points each; or (p, 3) with `offsets`. Positions in scene units.
-    widths: diameters in scene units: one number, (p,), (n, k), or (n, 1) for one per strand.
+    widths: diameters in scene units: one number, (p,), (n, 1) for one per strand, or, with points (n, k, 3), whatever
+        broadcasts to (n, k), such as (k,) for the same taper everywhere.
     offsets: (n + 1,), first point of each strand, and at last the number of points p.
     ids: (n,), numbers that name the strands; default: 0, 1, 2, ... In a groom, ids are always these.
     basis: how points define curves: "pinned-b-spline", "b-spline", "catmull-rom" or "linear".
@@ -50,7 +51,7 @@ class Strands:
         if offsets is None:
             table = floats(points, "points", (None, None, 3))
             count, each = table.shape[:2]
-            firsts = np.arange(count + 1, dtype=np.uint64) * each
+            firsts = np.arange(count + 1, dtype=np.uint64) * np.uint64(each)
         else:
             table = floats(points, "points", (None, 3))
             firsts = integers(offsets, "offsets", "uint64", (None,))
@@ -61,7 +62,7 @@ class Strands:
         lengths = np.diff(firsts.astype(np.int64))
         quads = np.empty((total, 4), np.float32)
         quads[:, :3] = table.reshape(total, 3)
-        quads[:, 3] = _per_point(floats(widths, "widths"), "widths", count, total, lengths) / 2
+        quads[:, 3] = _per_point(floats(widths, "widths"), table.shape[:-1], lengths) / 2
         if (quads[:, 3] < 0).any():
             raise ValueError("widths: must not be negative")
         numbers = np.arange(count, dtype=np.uint64) if ids is None else integers(ids, "ids", "uint64", (count,))
@@ -172,16 +173,18 @@ class Strands:
         return f"<pelage.Strands: {len(self)} strands, {self.points.shape[0]} points, {self.basis}>"
 
 
-def _per_point(
-    values: NDArray[np.float32], name: str, count: int, total: int, lengths: NDArray[np.int64]
-) -> NDArray[np.float32]:
+def _per_point(values: NDArray[np.float32], shape: tuple[int, ...], lengths: NDArray[np.int64]) -> NDArray[np.float32]:
+    """Returns one width per point. `shape`: that of the points, without coordinates."""
     import numpy as np
 
-    if values.size == 1 or values.size == total and values.shape != (total, 1):
-        return np.broadcast_to(values.ravel(), (total,))
-    if values.shape == (count, 1):
+    if values.shape == (len(lengths), 1):
         return np.repeat(values[:, 0], lengths)
-    raise ValueError(f"{name}: expected one number, ({total},) per point or ({count}, 1) per strand, got {values.shape}")
+    if values.shape == (lengths.sum(),):
+        return values
+    try:
+        return np.broadcast_to(values, shape).ravel()
+    except ValueError:
+        raise ValueError(f"widths: expected one number, {shape} or ({len(lengths)}, 1), got {values.shape}") from None
 
 
 def _attribute(value: ArrayLike, name: str, count: int, total: int) -> NDArray[np.float32]:

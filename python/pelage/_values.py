@@ -48,6 +48,8 @@ def _number(value: float, path: str) -> str:
 
 
 def _key(key: Any, path: str) -> str:
+    if isinstance(key, int) and not isinstance(key, bool):  # a frame, as in {"keys": {1: 0.0, 48: 1.0}}
+        return str(key)
     if not isinstance(key, str):
         raise TypeError(f"{path or 'scene'}: expected names as keys, got {type(key).__name__}")
     return key
