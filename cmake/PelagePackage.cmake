@@ -16,6 +16,10 @@ if(TARGET pelage_python)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS
       "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
 endif()
+# Python writes compiled files beside the sources, which dpkg does not know.
+file(WRITE ${CMAKE_BINARY_DIR}/prerm "#!/bin/sh\nrm -rf /usr/${PELAGE_PYTHON_DESTINATION}/pelage/__pycache__\n")
+file(CHMOD ${CMAKE_BINARY_DIR}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/prerm)
 # What a program that links the library needs (PelageDependencies.cmake).
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "libosd-dev, libembree-dev, libopenexr-dev, libimath-dev, libyaml-cpp-dev, libtbb-dev, libhwy-dev, libfmt-dev, libcli11-dev, nlohmann-json3-dev, libboost-dev, libxxhash-dev, libpng-dev, zlib1g-dev")

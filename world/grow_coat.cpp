@@ -67,7 +67,7 @@ Strands grow_coat(const World& world, const std::string& coat, const Job& job) {
   });
   job.check_stop();
   check_alike(grown, coat);
-  return grown.size() == 1 ? std::move(grown.front()) : merge(grown);
+  return grown.size() == 1 ? std::move(grown.front()) : merge(grown, job.workers);
 }
 
 }  // namespace pelage

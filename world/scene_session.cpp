@@ -6,6 +6,7 @@
 #include "rib/document/rib_document.h"
 #include "scene/overrides.h"
 #include "scene/renamed_keys.h"
+#include "scene/yaml_reader.h"
 #include "world/grow_coat.h"
 
 namespace pelage {
@@ -44,7 +45,11 @@ SceneSession::Document SceneSession::changed(Document document, const std::vecto
   Problems problems;
   DocumentLimits limits;
   RenamedKeys renamed{SceneDescription::schema()};
-  for (const Override& change : changes) {
+  for (Override change : changes) {
+    // A text, too, is a value of the host: errors name its key, not the flag --set.
+    if (!change.given)
+      change.given = read_yaml(change.value, change.key, SourcePosition{change.key, 0, 0}, limits, problems);
+    if (!change.given) continue;
     if (change.key == "frames") {
       document.frames = {change};
       continue;
