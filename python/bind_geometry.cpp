@@ -113,6 +113,19 @@ std::shared_ptr<HostMesh> make_mesh(const InputArray<float>& points, const Input
   return shared(std::move(mesh));
 }
 
+std::shared_ptr<HostPoses> make_poses(const InputArray<float>& points) {
+  std::vector<HostPoses::Pose> poses(static_cast<size_t>(points.shape(0)),
+                                     HostPoses::Pose(static_cast<size_t>(points.shape(1))));
+  const float* p = points.data();
+  for (HostPoses::Pose& pose : poses) {
+    for (V3f& point : pose) {
+      point = {p[0], p[1], p[2]};
+      p += 3;
+    }
+  }
+  return std::const_pointer_cast<HostPoses>(share_poses(std::move(poses)));
+}
+
 StrandsPointer read_strands_of(const std::filesystem::path& path, const std::string& basis, float width) {
   StrandReadOptions options;
   if (!basis.empty()) options.basis = basis_of(basis);
@@ -176,6 +189,8 @@ void bind_geometry(py::module_& module) {
         const auto& corners = m->mesh().face_vertices;
         return view_of(m, corners.data(), {size_of(corners.size())}, {sizeof(uint32_t)});
       });
+  py::class_<HostPoses, std::shared_ptr<HostPoses>>(module, "PoseData");
+  module.def("make_poses", make_poses);
   module.def("make_mesh", make_mesh);
   module.def(
       "read_mesh", [](const std::filesystem::path& path) { return shared(read_obj(path)); },

@@ -29,6 +29,8 @@ Value to_value(py::handle object, const std::string& path, int depth) {
   if (py::isinstance<py::str>(object)) return Value::scalar(position, object.cast<std::string>());
   if (py::isinstance<HostMesh>(object))
     return Value::host(position, object.cast<std::shared_ptr<HostMesh>>());
+  if (py::isinstance<HostPoses>(object))
+    return Value::host(position, object.cast<std::shared_ptr<HostPoses>>());
   if (py::isinstance<HostStrands>(object))
     return Value::host(position, object.cast<std::shared_ptr<HostStrands>>());
   if (py::isinstance<py::list>(object)) {

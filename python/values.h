@@ -12,7 +12,7 @@
 namespace pelage {
 
 /// Converts what pelage/_values.py makes of a value of the user: None, str, list, dict with keys of type str,
-/// MeshData or StrandData. `path`: keys that lead to the value; the position of the result. Throws
+/// MeshData, PoseData or StrandData. `path`: keys that lead to the value; the position of the result. Throws
 /// pybind11::type_error for anything else, and for nesting deeper than 64.
 Value to_value(pybind11::handle object, const std::string& path, int depth = 0);
 

@@ -16,6 +16,7 @@ void add_groom_files(const GroomParams& groom, std::vector<std::filesystem::path
 
 std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
   std::vector<std::filesystem::path> files;
+  if (poses.files.data) return files;
   for (int i = 0; i < poses.count; ++i)
     files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
   return files;

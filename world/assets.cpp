@@ -87,6 +87,10 @@ void require_file(const std::filesystem::path& file, const SourcePosition& named
 
 PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, const M44f& to_scene,
                            MemoryLedger& ledger) {
+  if (params.files.data) {
+    return PoseSequence(host_poses(params.files, static_cast<size_t>(params.count), order.vertices),
+                        params.first, params.cycle, order, ledger, params.frames_per_pose, to_scene);
+  }
   const std::vector<std::filesystem::path> files = pose_files(params);
   for (const std::filesystem::path& file : files) require_file(file, params.files.position);
   return PoseSequence(files, params.first, params.cycle, order, ledger, params.frames_per_pose, to_scene);

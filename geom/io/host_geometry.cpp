@@ -143,6 +143,26 @@ std::shared_ptr<const HostStrands> share_strands(std::shared_ptr<const Strands> 
   return std::make_shared<HostStrands>("strands:" + to_string(hasher.digest()), std::move(strands));
 }
 
+std::shared_ptr<const HostPoses> share_poses(std::vector<HostPoses::Pose> poses) {
+  require(!poses.empty() && !poses.front().empty(), "there are no poses");
+  ContentHasher hasher;
+  for (const HostPoses::Pose& pose : poses) {
+    require(pose.size() == poses.front().size(), "the poses have different numbers of vertices");
+    require(std::all_of(pose.begin(), pose.end(), is_finite), "a vertex of a pose is not finite");
+    add_bytes(pose, hasher);
+  }
+  return std::make_shared<HostPoses>("poses:" + to_string(hasher.digest()), std::move(poses));
+}
+
+std::shared_ptr<const HostPoses> host_poses(const AssetPath& asset, size_t count, size_t vertices) {
+  const auto poses = std::dynamic_pointer_cast<const HostPoses>(asset.data);
+  if (!poses) throw Error(ErrorKind::kInput, asset.position, "expected poses, got " + asset.data->name());
+  const size_t given = poses->poses().size(), size = poses->poses().front().size();
+  if (given == count && size == vertices) return poses;
+  throw Error(ErrorKind::kInput, asset.position,
+              fmt::format("expected {} poses of {} vertices, got {} of {}", count, vertices, given, size));
+}
+
 const ControlMesh& host_mesh(const AssetPath& asset) {
   if (const auto* mesh = dynamic_cast<const HostMesh*>(asset.data.get())) return mesh->mesh();
   throw Error(ErrorKind::kInput, asset.position, "expected a mesh, got " + asset.data->name());

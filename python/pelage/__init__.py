@@ -8,7 +8,7 @@
     picture = scene.render()                # picture["RGBA"] (height, width, 4), and all other layers
 
 open, Scene        scenes: set values, grow coats, render frames
-Strands, Mesh      strands and meshes as arrays, from and to files
+Strands, Mesh      strands and meshes as arrays, from and to files; Poses of a mesh
 Picture, Pass      layers of a frame, finished or between two passes
 Fibre              fibre models: evaluate, sample, integrate
 schema             all keys of a scene, for tools that build panels
@@ -26,7 +26,7 @@ from typing import Any
 from . import _pelage
 from ._errors import Cancelled, Error, PelageWarning, Problem
 from ._fibre import Fibre
-from ._geometry import Mesh
+from ._geometry import Mesh, Poses
 from ._measure import measure
 from ._picture import Pass, Picture
 from ._scene import Progress, Scene, open
@@ -53,6 +53,7 @@ __all__ = [
     "Pass",
     "PelageWarning",
     "Picture",
+    "Poses",
     "Problem",
     "Progress",
     "Scene",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes."""
+"""Meshes and their poses."""
 
 from __future__ import annotations
 
@@ -81,3 +81,24 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<pelage.Mesh: {len(self.points)} points, {len(self.face_sizes)} faces>"
+
+
+class Poses:
+    """Posed positions of a mesh, for `poses.files` of a skin in place of OBJ files.
+
+    points: (m, n, 3), m poses of the n vertices of the mesh, in scene units. In a scene, "poses": {"files": poses,
+    "count": len(poses)} shows the first of them at frame 1 and interpolates between them.
+    """
+
+    __slots__ = ("_count", "_data")
+
+    def __init__(self, points: ArrayLike) -> None:
+        places = floats(points, "points", (None, None, 3))
+        self._count: int = places.shape[0]
+        self._data: _pelage.PoseData = _pelage.make_poses(places)
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __repr__(self) -> str:
+        return f"<pelage.Poses: {self._count}>"

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+import operator
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -22,7 +24,7 @@ class Scene:
     """A scene whose values change, whose coats grow, whose frames are rendered, any number of times.
 
     Scene(values) makes a scene from a dict with the keys of a scene file (`pelage.schema()`, docs/MANUAL.md). A value
-    is a number, text, a list, a dict, a numpy array, a Mesh in place of an OBJ file, or Strands in place of a
+    is a number, text, a list, a dict, a numpy array, a Mesh or Poses in place of OBJ files, or Strands in place of a
     strand file. `pelage: 1`, the version of the format, need not be given. Relative names of files start at the current
     folder. `pelage.open(path)` reads a file.
 
@@ -46,7 +48,8 @@ class Scene:
     @staticmethod
     def _open(path: str | os.PathLike[str], set: Mapping[str, Any] | None, threads: int) -> Scene:
         scene = Scene.__new__(Scene)
-        scene._take(_pelage.open_scene(os.fspath(path), changes(set or {}), _thread_count(threads)))
+        file = _text(os.fspath(path), "path")
+        scene._take(_pelage.open_scene(file, changes(set or {}), _thread_count(threads)))
         return scene
 
     def _warn(self) -> None:
@@ -83,7 +86,7 @@ class Scene:
         coat: the name of a groom ("coat": on all characters), or of a coat of one character ("rat.coat").
         frame: number of the frame; None means the first of the scene.
         """
-        return Strands._of(self._session.grow(coat, frame, progress))
+        return Strands._of(self._session.grow(_text(coat, "coat"), _frame(frame), _callback(progress, "progress")))
 
     def render(
         self,
@@ -102,10 +105,11 @@ class Scene:
         progress: see Progress. on_pass: called between passes with a Pass, on another thread than the caller's.
         cancel() ends the render with a partial picture, or with pelage.Cancelled if there are no samples yet.
         """
-        box = None if region is None else _region(region)
-        watch = None if on_pass is None else (lambda view: on_pass(Pass(view)))
-        file = "" if output is None else os.fspath(output)
-        return Picture(self._session.render(frame, box, file, progress, watch))
+        box = None if region is None else _region(region, self.size)
+        shown = _callback(on_pass, "on_pass")
+        watch = None if shown is None else (lambda view: shown(Pass(view)))
+        file = "" if output is None else _text(os.fspath(output), "output")
+        return Picture(self._session.render(_frame(frame), box, file, _callback(progress, "progress"), watch))
 
     def cancel(self) -> None:
         """Cancels what other threads are doing with this scene; no effect on later calls."""
@@ -168,11 +172,39 @@ def _thread_count(threads: Any) -> int:
     return threads
 
 
-def _region(region: Sequence[int]) -> tuple[int, int, int, int]:
-    box = tuple(int(side) for side in region)
-    if len(box) != 4:
-        raise ValueError(f"region: expected x0, y0, x1, y1, got {len(box)} numbers")
-    return box[0], box[1], box[2], box[3]
+def _text(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: expected text, got {type(value).__name__}")
+    return value
+
+
+def _callback(value: Any, name: str) -> Any:
+    if value is not None and not callable(value):
+        raise TypeError(f"{name}: expected something to call, got {type(value).__name__}")
+    return value
+
+
+def _frame(frame: Any) -> float | None:
+    if frame is None:
+        return None
+    if isinstance(frame, (bool, str)) or not hasattr(frame, "__float__"):
+        raise TypeError(f"frame: expected a number, got {type(frame).__name__}")
+    number = float(frame)
+    if not math.isfinite(number):
+        raise ValueError(f"frame: expected a finite number, got {number}")
+    return number
+
+
+def _region(region: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    try:
+        x0, y0, x1, y1 = map(operator.index, region)
+    except TypeError:
+        raise TypeError("region: expected four integers x0, y0, x1, y1") from None
+    except ValueError:
+        raise ValueError("region: expected four integers x0, y0, x1, y1") from None
+    if not (0 <= x0 < x1 <= size[0] and 0 <= y0 < y1 <= size[1]):
+        raise ValueError(f"region: expected a box inside {size[0]} x {size[1]} pixels, got {(x0, y0, x1, y1)}")
+    return x0, y0, x1, y1
 
 
 __all__ = ["Progress", "Scene", "open"]

@@ -8,14 +8,14 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ._geometry import Mesh
+from ._geometry import Mesh, Poses
 from ._strands import Strands
 
 _MAX_DEPTH = 64
 
 
 def scene_value(value: Any, path: str, depth: int = 0) -> Any:
-    """Returns `value` as None, str, list, dict, MeshData or StrandData. `path`: keys that lead to it, for errors."""
+    """Returns `value` as None, str, list, dict, MeshData, PoseData or StrandData. `path`: keys that lead to it, for errors."""
     if depth > _MAX_DEPTH:
         raise ValueError(f"{path}: nested more than {_MAX_DEPTH} levels deep, or in itself")
     if value is None or isinstance(value, str):
@@ -28,7 +28,7 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
         return _number(value, path)
     if isinstance(value, Mapping):
         return {_key(key, path): scene_value(item, f"{path}.{key}".lstrip("."), depth + 1) for key, item in value.items()}
-    if isinstance(value, Mesh):
+    if isinstance(value, (Mesh, Poses)):
         return value._data
     if isinstance(value, Strands):
         return value._shared()
@@ -38,7 +38,7 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
         return scene_value(value.tolist(), path, depth + 1)
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [scene_value(item, f"{path}.{i}", depth + 1) for i, item in enumerate(value)]
-    raise TypeError(f"{path}: expected a number, text, list, dict, Mesh or Strands, got {type(value).__name__}")
+    raise TypeError(f"{path}: expected a number, text, list, dict, Mesh, Poses or Strands, got {type(value).__name__}")
 
 
 def _number(value: float, path: str) -> str:

@@ -51,6 +51,21 @@ class Grown(unittest.TestCase):
         moved = hair.motion[-1] - hair.motion[0]
         self.assertLess(np.abs(moved - [1, 0, 0]).max(), 1e-4)
 
+    def test_poses_move_the_coat(self):
+        values = scene_values()
+        values["camera"]["shutter"] = [0, 0]
+        values["skins"]["cube"]["poses"] = {"files": pelage.Poses([CUBE, CUBE + [0, 2, 0]]), "count": 2}
+        scene = pelage.Scene(values)
+        still, halfway = scene.grow("coat", frame=1), scene.grow("coat", frame=1.5)
+        self.assertLess(np.abs(halfway.points - still.points - [0, 1, 0]).max(), 1e-5)
+        scene.set("skins.cube.poses.count", 3)
+        with self.assertRaises(pelage.Error) as caught:
+            scene.grow("coat")
+        self.assertEqual(str(caught.exception),
+                         "skins.cube.poses.files: expected 3 poses of 8 vertices, got 2 of 8")
+        with self.assertRaisesRegex(ValueError, "points: expected the shape"):
+            pelage.Poses(CUBE)
+
     def test_a_thousand_grows_take_no_memory(self):
         scene = pelage.Scene(scene_values(), threads=1)
         for _ in range(200):

@@ -75,8 +75,8 @@ class Values(unittest.TestCase):
         scene = pelage.Scene(scene_values())
         for value, kind, message in [
             (float("nan"), ValueError, "render.samples: expected a finite number, got nan"),
-            (object(), TypeError, "render.samples: expected a number, text, list, dict, Mesh or Strands, got object"),
-            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Mesh or Strands, got bytes"),
+            (object(), TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got object"),
+            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got bytes"),
             ({(1,): 2}, TypeError, "render.samples: expected names as keys, got tuple"),
         ]:
             with self.assertRaises(kind) as caught:
@@ -92,6 +92,28 @@ class Values(unittest.TestCase):
             mesh = pelage.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
             pelage.Scene(scene_values(strands_file=mesh)).grow("coat")
         self.assertIn("expected strands, got mesh:", str(caught.exception))
+
+    def test_arguments_of_wrong_types_are_named(self):
+        scene = pelage.Scene(scene_values())
+        for call, kind, message in [
+            (lambda: scene.grow(5), TypeError, "coat: expected text, got int"),
+            (lambda: scene.grow("coat", frame=float("nan")), ValueError, "frame: expected a finite number, got nan"),
+            (lambda: scene.render("first"), TypeError, "frame: expected a number, got str"),
+            (lambda: scene.render(progress=5), TypeError, "progress: expected something to call, got int"),
+            (lambda: scene.render(on_pass=5), TypeError, "on_pass: expected something to call, got int"),
+            (lambda: scene.render(region=(0, 0, 8)), ValueError, "region: expected four integers x0, y0, x1, y1"),
+            (lambda: scene.render(region=(0, 0, 8, 17)), ValueError,
+             "region: expected a box inside 24 x 16 pixels, got (0, 0, 8, 17)"),
+            (lambda: pelage.Scene({}, threads=1.5), TypeError, "threads: expected an integer, got float"),
+        ]:
+            with self.assertRaises(kind) as caught:
+                call()
+            self.assertEqual(str(caught.exception), message)
+        with self.assertRaisesRegex(pelage.Error, "nothing.yaml"):
+            pelage.open("nothing.yaml")
+        with self.assertRaises(pelage.Error) as caught:
+            scene.grow("caot")
+        self.assertEqual((caught.exception.kind, caught.exception.nearest), ("arguments", "coat"))
 
     def test_the_schema_names_every_key(self):
         schema = pelage.schema()
