@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include "base/error.h"
 
@@ -17,19 +18,27 @@ namespace {
 // Its address tells which file contains this code.
 void own_address() {}
 
+/// Returns the shared library that contains this code; empty if the executable does. The loader knows the
+/// executable by an empty name, while its path in Dl_info is only what the user typed.
+std::filesystem::path own_library() {
+  Dl_info own{};
+  link_map* file = nullptr;
+  const void* address = reinterpret_cast<const void*>(&own_address);
+  if (::dladdr1(address, &own, reinterpret_cast<void**>(&file), RTLD_DL_LINKMAP) == 0 || !file) return {};
+  std::error_code unknown;
+  return *file->l_name ? std::filesystem::canonical(file->l_name, unknown) : std::filesystem::path();
+}
+
 std::vector<std::filesystem::path> search_folders() {
   std::vector<std::filesystem::path> folders;
   std::error_code error;
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
+  if (const std::filesystem::path library = own_library(); !library.empty()) {
+    folders.push_back(library.parent_path());  // the executable belongs to somebody else
+  } else if (!error) {
     const std::filesystem::path prefix = executable.parent_path().parent_path();
     folders.push_back(prefix / "lib");
     folders.push_back(prefix / "lib" / "pelage");
-  }
-  Dl_info own{};
-  if (::dladdr(reinterpret_cast<const void*>(&own_address), &own) != 0 && own.dli_fname) {
-    const std::filesystem::path library = std::filesystem::canonical(own.dli_fname, error);
-    if (!error && library != executable) folders.push_back(library.parent_path());
   }
   if (const char* list = std::getenv("PELAGE_MODULE_PATH")) {
     const std::string paths = list;

@@ -9,9 +9,9 @@ namespace pelage {
 /// A loadable module: a shared library that the constructor opens and the destructor closes.
 class Module {
  public:
-  /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable, then, if this
-  /// code is in a shared library, the folder of this library, then the folders of the environment variable
-  /// PELAGE_MODULE_PATH, then the folders where the system looks for
+  /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable or, if this
+  /// code is in a shared library, the folder of this library. Then searches the folders of the environment
+  /// variable PELAGE_MODULE_PATH, the run path of this code, and the folders where the system looks for
   /// libraries. Throws Error (kFailed) when the library cannot be loaded, or when it is not found. In the
   /// latter case, the message lists all paths tried, except those of the system.
   explicit Module(const std::string& name);

@@ -14,6 +14,12 @@ Value Value::scalar(SourcePosition position, std::string text, bool quoted) {
   return value;
 }
 
+Value Value::host(SourcePosition position, std::shared_ptr<const HostData> data) {
+  Value value = scalar(std::move(position), data->name(), true);
+  value.data_ = std::move(data);
+  return value;
+}
+
 Value Value::list(SourcePosition position, std::vector<Value> items) {
   Value value;
   value.kind_ = Kind::kList;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/host_data.h"
 
 namespace pelage {
 
@@ -23,6 +25,8 @@ class Value {
 
   Value() = default;
   static Value scalar(SourcePosition position, std::string text, bool quoted = false);
+  /// A scalar that names data of the host instead of a file. Its text is the name of the data.
+  static Value host(SourcePosition position, std::shared_ptr<const HostData> data);
   static Value list(SourcePosition position, std::vector<Value> items);
   static Value map(SourcePosition position, std::vector<Entry> entries);
 
@@ -38,6 +42,8 @@ class Value {
   const std::string& text() const { return text_; }
   /// Whether the text of a scalar was in quotes. Such a text is never a number, a boolean or null.
   bool quoted() const { return quoted_; }
+  /// The data that a scalar names; null for every other value.
+  const std::shared_ptr<const HostData>& data() const { return data_; }
   const std::vector<Value>& items() const { return items_; }
   std::vector<Value>& items() { return items_; }
   const std::vector<Entry>& entries() const { return entries_; }
@@ -55,6 +61,7 @@ class Value {
   SourcePosition position_;
   std::string text_;
   bool quoted_ = false;
+  std::shared_ptr<const HostData> data_;
   std::vector<Value> items_;
   std::vector<Entry> entries_;
 };

@@ -205,6 +205,10 @@ bool ValueReader<AssetPath>::read(const Value& value, const KeyOptions&, AssetPa
     return false;
   }
   std::filesystem::path path = value.text();
+  if (value.data()) {
+    out = {std::move(path), value.position(), value.data()};
+    return true;
+  }
   // A value without a line comes from the command line: its path is relative to the current folder.
   if (path.is_relative() && value.position().line > 0) {
     path = (std::filesystem::path(value.position().file).parent_path() / path).lexically_normal();

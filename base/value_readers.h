@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,12 +23,13 @@ std::optional<double> parse_number(std::string_view text);
 /// or iB: 512M, 1.5GB. Returns an empty value for any other text.
 std::optional<uint64_t> parse_bytes(std::string_view text);
 
-/// A file that a scene names, and the position of this name, for errors about the file. A relative path
-/// starts at the folder of the file that contains the name or, for names on the command line, at the current
-/// folder.
+/// A file that a scene names, or data of the host in its place, and the position of this name, for errors
+/// about the file. A relative path starts at the folder of the file that contains the name or, for names on
+/// the command line, at the current folder.
 struct AssetPath {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< of a file, or the name of `data`
   SourcePosition position;
+  std::shared_ptr<const HostData> data = nullptr;  ///< null: a file
   bool empty() const { return path.empty(); }
 };
 
@@ -119,7 +121,7 @@ struct ValueReader<AssetPath> {
   static std::string type_name() { return "file"; }
   static std::string print(const AssetPath& v);
   static void add_files(const AssetPath& v, std::vector<std::filesystem::path>& files) {
-    if (!v.empty()) files.push_back(v.path);
+    if (!v.empty() && !v.data) files.push_back(v.path);
   }
 };
 template <>

@@ -4,6 +4,7 @@
 namespace pelage {
 
 const char* version() { return PELAGE_VERSION; }
+int library_abi() { return kLibraryAbi; }
 const char* compiler() { return PELAGE_COMPILER; }
 const char* libraries() { return PELAGE_LIBRARIES; }
 

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-#include "cli/stats_json.h"
+#include "world/statistics_json.h"
 
 namespace pelage {
 namespace {

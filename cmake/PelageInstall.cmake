@@ -4,13 +4,13 @@ include(CMakePackageConfigHelpers)
 
 # What others may build on (docs/LIBRARY.md). Only these headers are installed, and what they include.
 set(public_headers
-  base/error.h base/schema.h base/stopwatch.h
+  base/error.h base/schema.h base/stop_switch.h base/stopwatch.h base/version.h
   image/exr.h
-  geom/strands.h geom/curve_bounds.h geom/io/strand_file.h geom/io/strand_reader.h
+  geom/strands.h geom/curve_bounds.h geom/io/host_geometry.h geom/io/strand_file.h geom/io/strand_reader.h
   procedurals/fixed_strands.h
   render/fibre/fibre_material.h render/frame/frame_saver.h render/frame/frame_watch.h render/material/material.h
   post/pelage_post.h
-  world/world.h)
+  world/grow_coat.h world/scene_session.h world/world.h)
 set(installed_headers)
 while(public_headers)
   list(POP_FRONT public_headers header)

@@ -16,9 +16,14 @@ class PoseSequence::Files {
  public:
   using Positions = BlendedPose::Positions;
 
-  Files(std::vector<std::filesystem::path> paths, const MeshOrder& order, MemoryLedger& ledger,
-        const M44f& to_scene)
-      : paths_(std::move(paths)), order_(order), ledger_(ledger), to_scene_(to_scene), read_(paths_.size()) {
+  Files(std::vector<std::filesystem::path> paths, std::shared_ptr<const HostPoses> given,
+        const MeshOrder& order, MemoryLedger& ledger, const M44f& to_scene)
+      : paths_(std::move(paths)),
+        given_(std::move(given)),
+        order_(order),
+        ledger_(ledger),
+        to_scene_(to_scene),
+        read_(paths_.size()) {
     PELAGE_CHECK(!paths_.empty());
   }
   ~Files() { ledger_.charge(MemoryTag::kSkins, -charged_); }
@@ -36,7 +41,7 @@ class PoseSequence::Files {
         kept_.erase(kept_.begin());
       }
       require_memory(ledger_, pose_bytes(), "the pose " + paths_[file].string());
-      std::vector<V3f> positions = read_obj_positions(paths_[file], order_);
+      std::vector<V3f> positions = given_ ? given_->poses()[file] : read_obj_positions(paths_[file], order_);
       if (to_scene_ != M44f()) {
         for (V3f& point : positions) point *= to_scene_;
       }
@@ -57,7 +62,8 @@ class PoseSequence::Files {
     charged_ += bytes;
   }
 
-  const std::vector<std::filesystem::path> paths_;
+  const std::vector<std::filesystem::path> paths_;  // or the name of `given_` for each pose
+  const std::shared_ptr<const HostPoses> given_;    // null: the poses are in files
   const MeshOrder order_;
   MemoryLedger& ledger_;
   const M44f to_scene_;
@@ -70,7 +76,15 @@ class PoseSequence::Files {
 PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle,
                            const MeshOrder& order, MemoryLedger& ledger, double frames_per_pose,
                            const M44f& to_scene)
-    : files_(std::make_unique<Files>(std::move(files), order, ledger, to_scene)),
+    : files_(std::make_unique<Files>(std::move(files), nullptr, order, ledger, to_scene)),
+      first_(first),
+      cycle_(cycle),
+      frames_per_pose_(frames_per_pose) {}
+PoseSequence::PoseSequence(std::shared_ptr<const HostPoses> poses, int first, bool cycle,
+                           const MeshOrder& order, MemoryLedger& ledger, double frames_per_pose,
+                           const M44f& to_scene)
+    : files_(std::make_unique<Files>(std::vector<std::filesystem::path>(poses->poses().size(), poses->name()),
+                                     poses, order, ledger, to_scene)),
       first_(first),
       cycle_(cycle),
       frames_per_pose_(frames_per_pose) {}

@@ -8,6 +8,7 @@
 
 #include "base/ledger.h"
 #include "base/vector.h"
+#include "geom/io/host_geometry.h"
 #include "geom/mesh.h"
 
 namespace pelage {
@@ -32,10 +33,11 @@ class BlendedPose {
   float t_ = 0;
 };
 
-/// Poses of a cage, one OBJ file per pose. The first file is shown at frame `first`, and each following file
-/// `frames_per_pose` frames after the one before it. Positions between two poses are interpolated linearly.
-/// With `cycle`, the sequence repeats endlessly, before its first frame as well as after its last. Without
-/// `cycle`, the first pose is shown before the sequence and the last pose after it.
+/// Poses of a cage, one OBJ file per pose, or all in the memory of the host. The first file is shown at frame
+/// `first`, and each following file `frames_per_pose` frames after the one before it. Positions between two
+/// poses are interpolated linearly. With `cycle`, the sequence repeats endlessly, before its first frame as
+/// well as after its last. Without `cycle`, the first pose is shown before the sequence and the last pose
+/// after it.
 ///
 /// A file is read when a frame first needs it. The last poses read are kept in memory, up to `kMaxBytes`, so
 /// that a crowd in nearby frames reads each file once. Thread safety: const members may be called from any
@@ -50,6 +52,9 @@ class PoseSequence {
   /// `order`: of the mesh as its file has it. `frames_per_pose`: number of frames from one pose to the next.
   /// `to_scene`: from the space of the files to object space (row vectors: p * M).
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, const MeshOrder& order,
+               MemoryLedger& ledger, double frames_per_pose = 1, const M44f& to_scene = M44f());
+  /// Does the same with poses of the host, which host_poses() has checked against the mesh.
+  PoseSequence(std::shared_ptr<const HostPoses> poses, int first, bool cycle, const MeshOrder& order,
                MemoryLedger& ledger, double frames_per_pose = 1, const M44f& to_scene = M44f());
   PoseSequence(PoseSequence&&) noexcept;
   ~PoseSequence();

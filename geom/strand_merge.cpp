@@ -2,6 +2,7 @@
 #include "geom/strand_merge.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/check.h"
 
@@ -19,10 +20,21 @@ std::vector<Source> sources_by_id(std::span<const Strands> batches) {
   for (const Strands& batch : batches) {
     for (uint32_t i = 0; i < batch.strand_count(); ++i) sources.push_back({&batch, i});
   }
-  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
-    return a.batch->id(a.strand) < b.batch->id(b.strand);
-  });
-  return sources;
+  const auto id = [](const Source& source) { return source.batch->id(source.strand); };
+  uint64_t end = 0;
+  for (const Source& source : sources) end = std::max(end, id(source));
+  if (end > 2 * sources.size()) {
+    std::stable_sort(sources.begin(), sources.end(),
+                     [&](const Source& a, const Source& b) { return id(a) < id(b); });
+    return sources;
+  }
+  // The ids of grown coats are dense: each strand's place follows from the number of smaller ids.
+  std::vector<uint32_t> places(end + 2);
+  for (const Source& source : sources) ++places[id(source) + 1];
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::vector<Source> sorted(sources.size());
+  for (const Source& source : sources) sorted[places[id(source)]++] = source;
+  return sorted;
 }
 
 // The attribute of this name in a batch; `missing` if it has none.
@@ -79,7 +91,7 @@ std::vector<StrandAttribute> all_attributes(std::span<const Strands* const> batc
 
 }  // namespace
 
-Strands merge(std::span<const Strands> batches) {
+Strands merge(std::span<const Strands> batches, const Workers& workers) {
   std::vector<const Strands*> filled;
   for (const Strands& batch : batches) {
     if (batch.strand_count() > 0) filled.push_back(&batch);
@@ -99,7 +111,7 @@ Strands merge(std::span<const Strands> batches) {
   StrandArrays out;
   out.basis = first.basis();
   out.motion_keys = first.motion_keys();
-  out.points.reserve(point_count * 4 * static_cast<size_t>(out.motion_keys));
+  out.points.resize(point_count * 4 * static_cast<size_t>(out.motion_keys));
   out.first_point.reserve(sources.size() + 1);
   out.first_point.push_back(0);
   for (const Source& source : sources) {
@@ -108,14 +120,17 @@ Strands merge(std::span<const Strands> batches) {
     if (has_roots) out.roots.push_back(source.batch->root(source.strand));
     if (has_uv) out.root_uv.push_back(source.batch->root_uv(source.strand));
   }
-  for (int key = 0; key < out.motion_keys; ++key) {
-    for (const Source& source : sources) {
-      const auto points =
-          source.batch->points(key).subspan(size_t(source.batch->first_point(source.strand)) * 4,
-                                            size_t(source.batch->strand_points(source.strand)) * 4);
-      out.points.insert(out.points.end(), points.begin(), points.end());
+  workers.for_each(sources.size(), 4096, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      const auto [batch, strand] = sources[i];
+      for (int key = 0; key < out.motion_keys; ++key) {
+        const auto points = batch->points(key).subspan(size_t(batch->first_point(strand)) * 4,
+                                                       size_t(batch->strand_points(strand)) * 4);
+        std::copy(points.begin(), points.end(),
+                  out.points.data() + (static_cast<size_t>(key) * point_count + out.first_point[i]) * 4);
+      }
     }
-  }
+  });
   for (const StrandAttribute& missing : all_attributes(filled)) {
     StrandAttribute merged{missing.name, missing.frequency, missing.components, {}};
     if (!common_class(filled, missing, merged.frequency)) continue;

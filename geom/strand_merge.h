@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "base/parallel.h"
 #include "geom/strands.h"
 
 namespace pelage {
@@ -14,6 +15,6 @@ namespace pelage {
 /// for "color" and "opacity", 0 for all others. An attribute is constant, per strand or per point; the result
 /// has the finest of these that any batch has. If it is constant in all batches, but with different values,
 /// the result is per strand. Keeps roots if every batch has roots, and root uvs if every batch has root uvs.
-Strands merge(std::span<const Strands> batches);
+Strands merge(std::span<const Strands> batches, const Workers& workers = Workers::alone());
 
 }  // namespace pelage

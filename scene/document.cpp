@@ -51,15 +51,17 @@ class Loader {
 
   Value parse(std::string text, const std::string& name) {
     std::optional<Value> root = read_yaml(std::move(text), name, {}, limits_, problems_);
-    if (root && root->is_map()) {
-      if (renamed_) rename_old_keys(*root, *renamed_, problems_);
-      return with_includes(std::move(*root));
-    }
+    if (root && root->is_map()) return complete(std::move(*root));
     if (root && !root->is_null()) {
       problems_.add(root->position(), "expected a scene, which is a block of keys, got " + root->describe());
     }
     has_holes_ |= !root || !root->is_null();
     return Value::map({name, 1, 1}, {});
+  }
+
+  Value complete(Value root) {
+    if (renamed_) rename_old_keys(root, *renamed_, problems_);
+    return with_includes(std::move(root));
   }
 
   void apply(const Override& override, Value& document) {
@@ -119,6 +121,20 @@ std::optional<Value> load_document(const std::filesystem::path& path, const std:
                                    Problems& problems, RenamedKeys* renamed) {
   Loader loader(problems, renamed);
   Value document = loader.load(path, {});
+  if (loader.has_holes()) return std::nullopt;
+  for (const Override& override : overrides) loader.apply(override, document);
+  return document;
+}
+
+std::optional<Value> complete_document(Value document, const std::vector<Override>& overrides,
+                                       Problems& problems, RenamedKeys* renamed) {
+  if (!document.is_map()) {
+    problems.add(document.position(),
+                 "expected a scene, which is a block of keys, got " + document.describe());
+    return std::nullopt;
+  }
+  Loader loader(problems, renamed);
+  document = loader.complete(std::move(document));
   if (loader.has_holes()) return std::nullopt;
   for (const Override& override : overrides) loader.apply(override, document);
   return document;

@@ -11,10 +11,11 @@
 
 namespace pelage {
 
-/// One option `--set key=value` of the command line. The key is a path "a.b.c"; the value is YAML.
+/// One option `--set key=value` of the command line, or a value that a host sets. The key is a path "a.b.c".
 struct Override {
   std::string key;
-  std::string value;
+  std::string value;                          ///< as YAML
+  std::optional<Value> given = std::nullopt;  ///< replaces `value`; null removes the key
 };
 
 /// Splits "a.b=value" at the first '='. Throws Error (kArguments) when there is no '=' or no key before it.
@@ -46,6 +47,12 @@ struct RenamedKeys {
 /// caller then must not report missing keys, because the unreadable file may contain them.
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
+
+/// Completes a document that a host has made, like load_document() completes that of a file: replaces old
+/// names of keys, merges included files, and applies the overrides. Relative names of files start at the
+/// current folder. Returns nullopt when an included file could not be read or is not YAML.
+std::optional<Value> complete_document(Value document, const std::vector<Override>& overrides,
+                                       Problems& problems, RenamedKeys* renamed = nullptr);
 
 /// Reads a document from a text. `name` is used as the file name in positions. Included files are relative to
 /// the folder of `name`, which is the current folder if `name` contains no folder. Throws Error (kInput) with

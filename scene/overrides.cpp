@@ -119,17 +119,18 @@ bool remove_entry(Value& block, const std::string& name, const SourcePosition& w
 
 void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems,
                     RenamedKeys* renamed) {
-  const SourcePosition where{"--set " + override.key, 0, 0};
+  const SourcePosition where{(override.given ? "" : "--set ") + override.key, 0, 0};
   const std::vector<std::string> names = split(override.key);
   if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); })) {
     problems.add(where, "expected names separated by single dots");
     return;
   }
-  std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);
+  std::optional<Value> value = override.given;
+  if (!value) value = read_yaml(override.value, where.file, where, limits, problems);
   if (!value) return;
   value->set_position(where);
   // `--set key=` is more likely a mistake than a wish to remove the key.
-  const bool is_removal = value->is_null() && !override.value.empty();
+  const bool is_removal = value->is_null() && (override.given || !override.value.empty());
   std::optional<RenamedPath> path;
   if (renamed) path.emplace(document, *renamed);
   Value* target = &document;

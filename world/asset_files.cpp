@@ -6,7 +6,7 @@
 namespace pelage {
 
 void add_groom_files(const GroomParams& groom, std::vector<std::filesystem::path>& files) {
-  if (!groom.strands_file.empty()) files.push_back(groom.strands_file.path);
+  ValueReader<AssetPath>::add_files(groom.strands_file, files);
   if (groom.density) ValueReader<Field>::add_files(*groom.density, files);
   for (const OperatorList::Item& item : groom.operators.items) {
     for (const ParameterText& parameter : item.prototype->parameters())
@@ -16,6 +16,7 @@ void add_groom_files(const GroomParams& groom, std::vector<std::filesystem::path
 
 std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
   std::vector<std::filesystem::path> files;
+  if (poses.files.data) return files;
   for (int i = 0; i < poses.count; ++i)
     files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
   return files;
@@ -23,9 +24,7 @@ std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
 
 std::vector<std::filesystem::path> asset_files(const SceneDescription& scene) {
   std::vector<std::filesystem::path> files;
-  const auto add = [&](const AssetPath& file) {
-    if (!file.empty()) files.push_back(file.path);
-  };
+  const auto add = [&](const AssetPath& file) { ValueReader<AssetPath>::add_files(file, files); };
   for (const auto& skin : scene.skins.items) add(skin.value.mesh);
   add(scene.image.background);
   for (const auto& archive : scene.archives.items) add(archive.value.rib);

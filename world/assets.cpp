@@ -13,6 +13,7 @@
 #include "base/job.h"
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
+#include "geom/io/host_geometry.h"
 #include "geom/io/obj_file.h"
 #include "groom/strands/skin_fields.h"
 #include "render/fibre/fibre_material.h"
@@ -46,7 +47,7 @@ void add_files(const std::vector<std::filesystem::path>& files, ContentHasher& h
 ContentHash skin_key(const SceneDescription& scene, const std::string& name, const SkinParams& params) {
   ContentHasher hasher;
   add_part(scene, "skins." + name, hasher);
-  if (!params.mesh.empty()) add_files({params.mesh.path}, hasher);
+  if (!params.mesh.empty() && !params.mesh.data) add_files({params.mesh.path}, hasher);
   if (params.poses) add_files(pose_files(*params.poses), hasher);
   hasher.add(params.transform.meters_per_unit);
   return hasher.digest();
@@ -86,6 +87,10 @@ void require_file(const std::filesystem::path& file, const SourcePosition& named
 
 PoseSequence pose_sequence(const PosesParams& params, const MeshOrder& order, const M44f& to_scene,
                            MemoryLedger& ledger) {
+  if (params.files.data) {
+    return PoseSequence(host_poses(params.files, static_cast<size_t>(params.count), order.vertices),
+                        params.first, params.cycle, order, ledger, params.frames_per_pose, to_scene);
+  }
   const std::vector<std::filesystem::path> files = pose_files(params);
   for (const std::filesystem::path& file : files) require_file(file, params.files.position);
   return PoseSequence(files, params.first, params.cycle, order, ledger, params.frames_per_pose, to_scene);
@@ -103,9 +108,12 @@ ControlMesh no_surface() {
 
 Assets::Skin load_skin(const std::string& name, const SkinParams& params, SharedTopologies& topologies,
                        const Job& job) {
-  if (!params.mesh.empty()) require_file(params.mesh.path, params.mesh.position);
-  MemoryCharge reading = params.mesh.empty() ? MemoryCharge() : reserve_reading(name, params, job);
-  ControlMesh cage = params.mesh.empty() ? no_surface() : read_obj(params.mesh.path, job);
+  const bool from_file = !params.mesh.empty() && !params.mesh.data;
+  if (from_file) require_file(params.mesh.path, params.mesh.position);
+  MemoryCharge reading = from_file ? reserve_reading(name, params, job) : MemoryCharge();
+  ControlMesh cage = from_file          ? read_obj(params.mesh.path, job)
+                     : params.mesh.data ? host_mesh(params.mesh)
+                                        : no_surface();
   const MeshOrder order = mesh_order(cage);
   warn_of_equal_faces(merge_equal_faces(cage), to_string(params.mesh.position), params.mesh.path.string(),
                       job);

@@ -33,7 +33,7 @@ Extent extent_of(const GroomParams& groom) {
   if (groom.strands) extent.strands = static_cast<uint64_t>(*groom.strands);
   if (groom.strands_file.empty()) return extent;
   try {
-    const StrandReader file(groom.strands_file.path, {groom.basis, groom.default_width});
+    const StrandReader file(groom.strands_file, {groom.basis, groom.default_width});
     extent.strands = file.strands_in_file();
     extent.points = file.points_in_file() / std::max<uint64_t>(1, *extent.strands) + 1;
   } catch (const Error&) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -10,9 +8,7 @@
 
 #include "base/nearest_name.h"
 #include "image/exr_file.h"
-#include "rib/document/rib_document.h"
 #include "scene/document_hash.h"
-#include "scene/overrides.h"
 #include "scene/renamed_keys.h"
 #include "world/asset_files.h"
 #include "world/camera_check.h"
@@ -25,6 +21,7 @@
 #include "world/presets.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"
+#include "world/scene_source.h"
 
 namespace pelage {
 namespace {
@@ -235,90 +232,17 @@ void collect_files(const Value& value, std::set<std::string>& files) {
   }
 }
 
-/// The value of `render.memory` before it is checked; the default without one. 0 means no limit.
-size_t memory_of(const std::string& text) {
-  const size_t bytes = parse_bytes(text).value_or(RenderParams().memory.bytes);
-  return bytes > 0 ? bytes : std::numeric_limits<size_t>::max();
-}
-
-/// Removes the folders that Pelage would write into from values that come from RIB files or tables of
-/// materials, with a warning for each: a file of a stranger must not decide where files appear. The user can
-/// name such folders on the command line.
-void drop_folders(Value& block, const SchemaInfo& schema, bool only_overrides,
-                  std::vector<Problem>& warnings) {
-  std::erase_if(block.entries(), [&](Value::Entry& entry) {
-    const KeyInfo* key = schema.find(entry.key);
-    if (!key) return false;
-    key->visit_blocks(entry.value, [&](Value& inner, const SchemaInfo& of) {
-      drop_folders(inner, of, only_overrides, warnings);
-    });
-    if (!key->options.written || (only_overrides && entry.value.position().line > 0)) return false;
-    warnings.push_back(
-        {entry.value.position(),
-         fmt::format("`{}` is ignored: RIB files and tables of materials must not name folders "
-                     "to write into; --set can",
-                     entry.key)});
-    return true;
-  });
-}
-
-/// Adds the materials of the RIB files that a scene names as archives.
-void add_foreign_materials(Value& document, const RibUse& use, std::vector<Problem>& warnings) {
-  const Value* render = document.find("render");
-  const Value* memory = render ? render->find("memory") : nullptr;
-  const Value* materials = document.find("materials");
-  const size_t own = materials ? materials->entries().size() : 0;
-  add_archive_materials(document, use, memory_of(memory ? memory->text() : ""), warnings);
-  Value* all = document.find("materials");
-  if (!all) return;
-  Value added = Value::map(all->position(), {});
-  auto& entries = all->entries();
-  const auto first = entries.begin() + static_cast<std::ptrdiff_t>(std::min(own, entries.size()));
-  std::move(first, entries.end(), std::back_inserter(added.entries()));
-  entries.erase(first, entries.end());
-  SceneDescription::schema()
-      .find("materials")
-      ->visit_blocks(added, [&](Value& block, const SchemaInfo& schema) {
-        drop_folders(block, schema, false, warnings);
-      });
-  std::move(added.entries().begin(), added.entries().end(), std::back_inserter(entries));
-}
-
-/// A scene file, or a RIB file as a scene, with the overrides.
-std::optional<Value> any_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
-                                  const RibUse& use, Problems& problems, RenamedKeys& renamed) {
-  if (!is_rib(path)) {
-    std::optional<Value> document = load_document(path, overrides, problems, &renamed);
-    if (document && use.overrides)
-      drop_folders(*document, SceneDescription::schema(), true, renamed.warnings);
-    if (document) add_foreign_materials(*document, use, renamed.warnings);
-    return document;
-  }
-  std::string memory;
-  for (const Override& override : overrides) {
-    if (override.key == "render.memory") memory = override.value;
-  }
-  Value document = rib_document(path, use, memory_of(memory), renamed.warnings);
-  rename_old_keys(document, renamed, problems);
-  drop_folders(document, SceneDescription::schema(), false, renamed.warnings);
-  DocumentLimits limits;
-  for (const Override& override : overrides) {
-    apply_override(override, document, limits, problems, &renamed);
-    rename_old_keys(document, renamed, problems);
-  }
-  return document;
-}
-
 /// The scene file, and those that provided a value.
-std::vector<std::filesystem::path> files_of(const Value& document, const std::filesystem::path& path) {
-  std::set<std::string> files{path.string()};
+std::vector<std::filesystem::path> files_of(const Value& document, const SceneSource& source) {
+  std::set<std::string> files;
+  if (!source.made) files.insert(source.path.string());
   collect_files(document, files);
   return {files.begin(), files.end()};
 }
 
 /// Completes a camera with `frame`: its default direction, and the frame of the pose. Overrides of `frames`
 /// do not count, because every machine of a farm renders other frames with the same camera.
-void complete_frame(const std::filesystem::path& path, std::vector<Override> overrides, const Value& document,
+void complete_frame(const SceneSource& source, std::vector<Override> overrides, const Value& document,
                     SceneDescription& scene) {
   CameraParams& camera = scene.camera;
   if (camera.frame.name.empty()) return;
@@ -328,7 +252,7 @@ void complete_frame(const std::filesystem::path& path, std::vector<Override> ove
   const auto removed = std::erase_if(overrides, [](const Override& o) { return o.key == "frames"; });
   if (removed == 0 || scene.from_rib) return;
   Problems ignored;  // they are known
-  const std::optional<Value> file = load_document(path, overrides, ignored);
+  const std::optional<Value> file = source.document(overrides, ignored, nullptr);
   const Value* frames = file ? file->find("frames") : nullptr;
   FrameList list;
   if (!frames || ValueReader<FrameList>::read(*frames, {}, list, ignored))
@@ -355,18 +279,20 @@ std::optional<std::string> why_dark(const SceneDescription& scene) {
                         : "there is no light: pictures will be black; add one to `lights`";
 }
 
-SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides,
+namespace {
+
+SceneDescription read_scene(const SceneSource& source, const std::vector<Override>& overrides,
                             const RibUse& use) {
   Problems problems;
   SceneDescription scene;
   RenamedKeys renamed{SceneDescription::schema()};
-  if (std::optional<Value> document = any_document(path, overrides, use, problems, renamed)) {
+  if (std::optional<Value> document = source.any_document(overrides, use, problems, renamed)) {
     expand_presets(*document, problems);
     expand_regions(*document, problems);
     const ContentHash hash = document_hash(*document);
     scene.parts = scene_parts(*document);
-    scene.files = files_of(*document, path);
-    scene.from_rib = is_rib(path);
+    scene.files = files_of(*document, source);
+    scene.from_rib = source.is_rib();
     scene.programs = use.programs;
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // If a block could not be read, references to its names would be reported as unknown too.
@@ -377,7 +303,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);
-      complete_frame(path, overrides, *document, scene);
+      complete_frame(source, overrides, *document, scene);
       set_scale(scene);
     }
   }
@@ -387,6 +313,17 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   scene.warnings.insert(scene.warnings.begin(), renamed.warnings.begin(), renamed.warnings.end());
   choose_leaf_sizes(scene);
   return scene;
+}
+
+}  // namespace
+
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                            const RibUse& use) {
+  return read_scene({path}, overrides, use);
+}
+
+SceneDescription make_scene(const Value& document, const std::vector<Override>& overrides) {
+  return read_scene({{}, &document}, overrides, {});
 }
 
 }  // namespace pelage

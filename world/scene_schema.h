@@ -158,4 +158,8 @@ std::optional<std::string> why_dark(const SceneDescription& scene);
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {},
                             const RibUse& use = {});
 
+/// Does the same with values that a host has made instead of a file (complete_document()). Positions of
+/// values should have no line and, as file, the path of keys that leads to the value, "grooms.coat.strands".
+SceneDescription make_scene(const Value& document, const std::vector<Override>& overrides = {});
+
 }  // namespace pelage

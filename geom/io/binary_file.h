@@ -15,6 +15,12 @@ class BinaryFile {
   /// Throws Error (kInput) when the file is missing, empty, not a regular file, or a git-lfs pointer.
   explicit BinaryFile(const std::filesystem::path& path);
 
+  /// An empty file under a name, for data that is in memory.
+  struct InMemory {
+    std::string name;
+  };
+  explicit BinaryFile(const InMemory& data) : path_(data.name) {}
+
   const std::filesystem::path& path() const { return path_; }
   uint64_t size() const { return size_; }
   /// Checks that the file has `count` values of `value_size` bytes at `offset`. If not, throws Error (kInput)

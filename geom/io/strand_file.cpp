@@ -68,7 +68,11 @@ bool is_usual(const StrandAttribute& movable, const Strands& strands) {
 bool is_strand_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options) {
-  const std::unique_ptr<RawStrands> raw = open_raw_strands(path, options);
+  return read_strands(AssetPath{path, {}}, options);
+}
+
+StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options) {
+  const std::unique_ptr<RawStrands> raw = open_raw_strands(asset, options);
   StrandArrays arrays = raw->empty();
   FileWindows windows(raw->file);
   raw->append(0, raw->strand_count, windows, arrays);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/value_readers.h"
 #include "geom/strands.h"
 
 namespace pelage {
@@ -51,6 +52,8 @@ bool is_strand_file(const std::filesystem::path& path);
 /// Throws Error (kInput) with the reason when the file is damaged, is not of this format, or is shorter than
 /// the sizes in its header require. Uses less memory than 1.5 times the memory of the strands.
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
+/// Does the same to strands in the memory of the host, or to a file.
+StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options = {});
 
 /// Writes strands in the format that the extension of the file name selects. Writes the whole file or
 /// nothing. Writes motion key 0 and the attributes that read_strands() reads, but neither basis nor ids.

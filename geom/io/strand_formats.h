@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/value_readers.h"
 #include "geom/io/binary_file.h"
 #include "geom/io/strand_file.h"
 
@@ -48,6 +49,9 @@ class RawStrands {
  public:
   RawStrands(const std::filesystem::path& path, const char* format_name, const StrandReadOptions& options)
       : file(path), format(format_name), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
+  /// Strands in the memory of the host.
+  RawStrands(const std::string& name, CurveBasis basis_of_strands)
+      : file(BinaryFile::InMemory{name}), format("memory"), basis(basis_of_strands) {}
   virtual ~RawStrands() = default;
 
   /// Index of the first point of a strand. For `strand` = strand_count, the total number of points.
@@ -79,6 +83,8 @@ class RawStrands {
 
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
+/// Opens strands of the host, or a file. Throws Error (kInput) if the data of the host is not strands.
+std::unique_ptr<RawStrands> open_raw_strands(const AssetPath& asset, const StrandReadOptions& options);
 /// Opens a file in the format that the extension of its name selects. Throws Error (kInput).
 std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);

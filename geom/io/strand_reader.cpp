@@ -31,9 +31,8 @@ void for_each_range(const RawStrands& raw, const Job& job, const Visit& visit) {
 
 }  // namespace
 
-StrandReader::StrandReader(const std::filesystem::path& path, const StrandReadOptions& options,
-                           const M44f& to_scene)
-    : raw_(open_raw_strands(path, options)), to_scene_(to_scene), width_(stated_width(*raw_, options)) {
+StrandReader::StrandReader(const AssetPath& asset, const StrandReadOptions& options, const M44f& to_scene)
+    : raw_(open_raw_strands(asset, options)), to_scene_(to_scene), width_(stated_width(*raw_, options)) {
   if (raw_->file_width > 0) width_ *= length_factor(to_scene_);
 }
 StrandReader::~StrandReader() = default;

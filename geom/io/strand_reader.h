@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/job.h"
+#include "base/value_readers.h"
 #include "geom/io/strand_file.h"
 
 namespace pelage {
@@ -14,11 +15,11 @@ namespace pelage {
 class FileWindows;
 class RawStrands;
 
-/// A strand file that stays on disk. The reader reads and repairs strands each time they are requested. A
-/// strand's number is its index among the usable strands, which are the strands that read_strands() returns.
-/// Keeps at most a few bytes per strand in memory. While the reader is in use, the file may be replaced by
-/// another file, but must not be modified in place. Immutable after scan(). Thread safety: const members may
-/// be called from any thread.
+/// A strand file that stays on disk, or strands in the memory of the host. The reader reads and repairs
+/// strands each time they are requested. A strand's number is its index among the usable strands, which are
+/// the strands that read_strands() returns. Keeps at most a few bytes per strand in memory. While the reader
+/// is in use, the file may be replaced by another file, but must not be modified in place. Immutable after
+/// scan(). Thread safety: const members may be called from any thread.
 class StrandReader {
  public:
   using Visit = std::function<void(size_t first, const Strands& strands)>;
@@ -26,7 +27,9 @@ class StrandReader {
   /// Opens the file and checks its header against its length. Points and widths of the file are transformed
   /// by `to_scene` (row vectors: p * M) when they are read. Throws Error (kInput).
   StrandReader(const std::filesystem::path& path, const StrandReadOptions& options,
-               const M44f& to_scene = M44f());
+               const M44f& to_scene = M44f())
+      : StrandReader(AssetPath{path, {}}, options, to_scene) {}
+  StrandReader(const AssetPath& asset, const StrandReadOptions& options, const M44f& to_scene = M44f());
   ~StrandReader();
   StrandReader(StrandReader&&) noexcept;
 

@@ -18,7 +18,7 @@ namespace pelage {
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
     : reader_(with_errors_at_asset(params.strands_file, [&] {
-        return StrandReader(params.strands_file.path, {params.basis, params.default_width}, params.to_rest());
+        return StrandReader(params.strands_file, {params.basis, params.default_width}, params.to_rest());
       })) {
   // Per strand: first point, root and id in the order of the file; then the retained data in the order of
   // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand

@@ -19,7 +19,7 @@ void rethrow_at_asset(const Error& error, const AssetPath& file) {
 }
 
 StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options) {
-  return with_errors_at_asset(file, [&] { return read_strands(file.path, options); });
+  return with_errors_at_asset(file, [&] { return read_strands(file, options); });
 }
 
 }  // namespace pelage

@@ -33,6 +33,22 @@ TEST(StrandMerge, OrdersByIdAndKeepsEveryStrand) {
   }
 }
 
+TEST(StrandMerge, SparseIdsAndManyStrandsOnThreadsKeepTheOrder) {
+  for (const uint64_t step : {1, 1000}) {  // dense ids are counted, sparse ones are sorted
+    std::vector<uint64_t> first, second;
+    for (uint64_t i = 0; i < 10000; ++i)
+      (i * 7 % 10 < 4 ? first : second).push_back((i * 7919 % 10000) * step);
+    second.push_back(first[0]);
+    const Strands parts[] = {Strands(batch(first)), Strands(batch(second))};
+    const Strands merged = merge(parts, Workers(2));
+    ASSERT_EQ(merged.strand_count(), 10001u);
+    size_t wrong = 0;
+    for (size_t i = 1; i < merged.strand_count(); ++i)
+      wrong += merged.id(i) < merged.id(i - 1) || merged.point(2 * i).x != static_cast<float>(merged.id(i));
+    EXPECT_EQ(wrong, 0u);
+  }
+}
+
 TEST(StrandMerge, WidensAttributeClassesAndKeepsWhatSomeBatchLacks) {
   StrandArrays a = batch({0});
   a.attributes.push_back({"color", AttributeClass::kConstant, 1, {0.5f}});

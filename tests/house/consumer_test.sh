@@ -26,6 +26,12 @@ said=$("$scratch/build/strands")
 echo "$said"
 [ "$said" = "2 strands, 6 points, box -0.100 -0.100 -0.100 to 3.100 2.100 0.100" ]
 
+# A host without files: a mesh from memory, strands into arrays, passes and layers of a frame, a misspelt key.
+said=$("$scratch/build/host_scene")
+echo "$said"
+[ "$said" = "500 strands, 2000 points, passes seen, layers seen, light seen
+grooms.grass.operators.lenght.value | no item 'lenght' in the list; did you mean 'length'?" ]
+
 # A host in plain C that calls the motion blur and the other eye.
 said=$("$scratch/build/host")
 echo "$said"

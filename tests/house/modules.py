@@ -23,6 +23,7 @@ LIBRARY_HEADERS = {
     "CLI11": r"CLI/",
     "JSON": r"nlohmann/",
     "Boost": r"boost/",
+    "pybind11": r"pybind11/",
     "libpng": r"png\.h",
     "zlib": r"zlib\.h",
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stats_json.h"
+#include "world/statistics_json.h"
 
 #include <algorithm>
 

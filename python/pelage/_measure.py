@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Experiments of the program `pelage`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+from ._values import changes
+
+
+def program() -> str:
+    """Returns the program `pelage` of this installation: PELAGE_PROGRAM, the one beside the package, or on PATH."""
+    import shutil
+
+    named = os.environ.get("PELAGE_PROGRAM")
+    if named:
+        return named
+    folder = os.path.dirname(os.path.realpath(__file__))
+    while os.path.dirname(folder) != folder:
+        folder = os.path.dirname(folder)
+        if os.path.isfile(os.path.join(folder, "bin", "pelage")):
+            return os.path.join(folder, "bin", "pelage")
+    found = shutil.which("pelage")
+    if found is None:
+        raise FileNotFoundError("the program 'pelage' is neither beside the package nor on PATH; set PELAGE_PROGRAM")
+    return found
+
+
+def measure(
+    experiment: str, scene: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, **options: Any
+) -> dict[str, Any]:
+    """Runs `pelage measure EXPERIMENT SCENE` and returns its report.json as a dict.
+
+    experiment: "bounds", "lod", "shading" and others (docs/MEASURE.md). set: values of the scene, by key; numbers, text
+    and lists of them. options: flags of the command, `time_limit=60` for --time-limit 60; lists are joined by commas.
+    Raises RuntimeError with what the command says if it fails.
+    """
+    import json
+    import subprocess
+    import tempfile
+
+    with tempfile.TemporaryDirectory(prefix="pelage-") as folder:
+        command = [program(), "measure", experiment, os.fspath(scene), "-o", folder, "--quiet"]
+        for key, value in changes(set or {}).items():
+            command += ["--set", f"{key}={_yaml(value)}"]
+        for name, value in options.items():
+            text = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+            command += ["--" + name.replace("_", "-"), text]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(done.stderr.strip() or f"pelage measure ended with exit code {done.returncode}")
+        with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+            report: dict[str, Any] = json.load(file)
+        return report
+
+
+def _yaml(value: Any) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_yaml, value)) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {_yaml(item)}" for key, item in value.items()) + "}"
+    return "null" if value is None else str(value)
