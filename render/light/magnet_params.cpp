@@ -10,12 +10,13 @@
 namespace pelage {
 namespace {
 
-const KeyOptions kShare{.help =
-                            "Fraction of the rays from a surface that the magnet attracts, where it is in "
-                            "front of the surface or behind it; at least a tenth of the rays follow the "
-                            "surface alone, whatever the number of magnets",
-                        .min = 0,
-                        .max = 1};
+const KeyOptions kShareHelp{
+    .help =
+        "Fraction of the rays from a surface that the magnet attracts, where it is in "
+        "front of the surface or behind it; at least a tenth of the rays follow the "
+        "surface alone, whatever the number of magnets",
+    .min = 0,
+    .max = 1};
 
 }  // namespace
 
@@ -34,7 +35,7 @@ const Schema<RectangleMagnetParams>& RectangleMagnetParams::schema() {
     s.key("up", &RectangleMagnetParams::up, {.help = "Up vector: direction of the height"});
     s.key("size", &RectangleMagnetParams::size,
           {.unit = "scene units", .help = "Width and height", .min = 0, .above_min = true});
-    s.key("share", &RectangleMagnetParams::share, kShare);
+    s.key("share", &RectangleMagnetParams::share, kShareHelp);
     return s;
   }();
   return table;
@@ -51,7 +52,7 @@ const Schema<SphereMagnetParams>& SphereMagnetParams::schema() {
     s.key("position", &SphereMagnetParams::position, {.unit = "scene units", .help = "Centre"});
     s.key("radius", &SphereMagnetParams::radius,
           {.unit = "scene units", .help = "Radius", .min = 0, .above_min = true});
-    s.key("share", &SphereMagnetParams::share, kShare);
+    s.key("share", &SphereMagnetParams::share, kShareHelp);
     return s;
   }();
   return table;

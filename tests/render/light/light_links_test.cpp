@@ -118,8 +118,7 @@ PictureMean linked_fur(Integrator integrator, size_t lamps, uint64_t seed) {
 }
 
 TEST(LightLinks, GatherFindsTheMeanOfPath) {
-  // With few lights, each is listed; more are in a tree. Other seeds differ by 0.5 %; without its links, the
-  // first picture would be a fifth brighter.
+  // With few lights, each is listed; more are in a tree.
   for (const size_t lamps : {size_t{2}, size_t{12}}) {
     double path = 0, gather = 0;
     for (uint64_t seed = 0; seed < 2; ++seed) {
