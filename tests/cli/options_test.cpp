@@ -148,7 +148,7 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_EQ(problem({"rendr", "s"}), "unknown command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
             "unknown command 'zebra'; expected one of compare, convert, farm, grow, info, manual, measure, "
-            "merge, motionblur, new, procedural, render, rib, stereo, view, why");
+            "merge, motionblur, new, procedural, render, rib, simulate, stereo, view, why");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}), "unknown option '--fraems'; did you mean '--frames'?");
   EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "unknown option '--memroy'; did you mean '--memory'?");
   EXPECT_EQ(problem({"render", "s", "--zebra"}), "unknown option '--zebra'; see 'pelage render --help'");
