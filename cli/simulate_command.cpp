@@ -73,7 +73,7 @@ int run_simulate(const Options& options) {
   const std::vector<MovingCoat> coats = moving_coats(scene, *assets);
   if (coats.empty()) {
     throw Error(ErrorKind::kArguments,
-                scene.files.front().string() + ": no groom of a character has `dynamics`");
+                scene.files.front().string() + ": no groom of a character has `dynamics` that is simulated");
   }
   const auto [first, last] = wanted_frames(scene);
   for (const MovingCoat& coat : coats) {

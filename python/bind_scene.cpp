@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <thread>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "base/error.h"
 #include "base/heap.h"
+#include "base/nearest_name.h"
+#include "image/display_image.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/pictures.h"
@@ -48,16 +54,45 @@ class PassView {
   PassState state_;
 };
 
+/// The threads that run calls of a session or its callbacks. A callback must not wait for the call that waits
+/// for it.
+class Callers {
+ public:
+  /// Enters the current thread. Throws if it is among them already.
+  class Entry {
+   public:
+    explicit Entry(Callers& callers) : callers_(callers) {
+      const std::lock_guard lock(callers_.mutex_);
+      if (!callers_.threads_.insert(std::this_thread::get_id()).second)
+        throw std::runtime_error("a callback cannot grow or render the scene that calls it");
+    }
+    ~Entry() {
+      const std::lock_guard lock(callers_.mutex_);
+      callers_.threads_.erase(std::this_thread::get_id());
+    }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+
+   private:
+    Callers& callers_;
+  };
+
+ private:
+  std::mutex mutex_;
+  std::set<std::thread::id> threads_;
+};
+
 /// Calls back between two passes, on the thread that renders.
 class PythonWatch final : public FrameWatch {
  public:
-  PythonWatch(py::object callback, PythonProgress& progress)
-      : callback_(std::move(callback)), progress_(progress) {}
+  PythonWatch(py::object callback, PythonProgress& progress, Callers& callers)
+      : callback_(std::move(callback)), progress_(progress), callers_(callers) {}
   void passed(const Film& film, const PassState& state) override {
     if (progress_.cancelled()) return;
     const py::gil_scoped_acquire acquire;
     const auto view = std::make_shared<PassView>(film, state);
     try {
+      const Callers::Entry entry(callers_);
       callback_(view);
     } catch (py::error_already_set&) {
       progress_.fail(std::current_exception());
@@ -70,6 +105,7 @@ class PythonWatch final : public FrameWatch {
  private:
   const py::object callback_;
   PythonProgress& progress_;
+  Callers& callers_;
 };
 
 /// A session, and the calls to it that run and can be cancelled.
@@ -81,6 +117,7 @@ class Session {
 
   SceneSession& operator*() { return session_; }
   SceneSession* operator->() { return &session_; }
+  Callers& callers() { return callers_; }
 
   void cancel() {
     const std::lock_guard lock(mutex_);
@@ -88,6 +125,7 @@ class Session {
   }
 
   void run(PythonProgress& progress, const std::function<void()>& work) {
+    const Callers::Entry entry(callers_);
     const Running running(*this, progress);
     run_job(progress, work);
   }
@@ -107,6 +145,7 @@ class Session {
   };
 
   SceneSession session_;
+  Callers callers_;
   std::mutex mutex_;
   std::vector<PythonProgress*> running_;
 };
@@ -133,10 +172,14 @@ std::vector<ExrChannel> channels_of(const FrameResult& result) {
 
 py::dict render(Session& session, const RenderArguments& arguments, const py::object& callback,
                 const py::object& on_pass) {
+  const std::filesystem::path& output = arguments.output;
+  if (!output.empty() && output.extension() != ".exr" && !is_display_image(output))
+    throw Error(ErrorKind::kArguments,
+                "output: " + quote(output.string()) + " must end in .exr, .png or .jpg");
   PythonProgress progress(callback);
   std::optional<PythonWatch> watch;
   FrameOptions options;
-  if (!on_pass.is_none()) options.watch = &watch.emplace(on_pass, progress);
+  if (!on_pass.is_none()) options.watch = &watch.emplace(on_pass, progress, session.callers());
   if (const auto& box = arguments.region)
     options.region = PixelBox{(*box)[0], (*box)[1], (*box)[2], (*box)[3]};
   std::vector<ExrChannel> channels;

@@ -123,10 +123,13 @@ class HalfFrames {
     std::optional<FrameMotionData> motion = coat_.store.read(frame, coat_.segments(), false, warn);
     if (!motion) {
       const std::string file = scene_.files.empty() ? "SCENE" : scene_.files.front().string();
+      const std::vector<int>& of_scene = scene_.frames.frames;
+      const bool is_of_scene = std::find(of_scene.begin(), of_scene.end(), frame_) != of_scene.end();
       throw Error(
           ErrorKind::kInput,
           fmt::format("coat '{}' has no simulated motion for frame {}; run: pelage simulate {} --frames {}",
-                      coat_.name, frame_, file, print_frames(scene_.frames)));
+                      coat_.name, frame_, file,
+                      is_of_scene ? print_frames(scene_.frames) : fmt::format("{}", frame_)));
     }
     known_[2 * frame - 1] = std::move(motion->half);
     known_[2 * frame] = std::move(motion->whole);

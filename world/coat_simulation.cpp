@@ -155,9 +155,15 @@ SimulationReport simulate(const SceneDescription& scene, const Assets& assets, c
                           int first, int last, const Job& job, const std::function<void(int)>& done) {
   SimulationReport report;
   const auto began = std::chrono::steady_clock::now();
+  constexpr int64_t kMaxFrames = 1'000'000;
+  if (int64_t{last} - coat.start > kMaxFrames) {
+    throw Error(ErrorKind::kArguments,
+                fmt::format("frame {} is more than {} frames after the begin of the simulation of coat '{}'",
+                            last, kMaxFrames, coat.name));
+  }
   first = std::max(first, coat.start + 1);
   std::vector<int> missing;
-  const WarningSink warn = [&](const std::string& line) { job.progress.warn(line + "; it is made again"); };
+  const WarningSink warn = [&](const std::string& line) { job.progress.warn(line); };
   const WarningSink silent = [](const std::string&) {};
   for (int frame = first; frame <= last; ++frame) {
     if (coat.store.read(frame, coat.segments(), false, warn)) {

@@ -234,10 +234,14 @@ void collect_files(const Value& value, std::set<std::string>& files) {
 
 /// The scene file, and those that provided a value.
 std::vector<std::filesystem::path> files_of(const Value& document, const SceneSource& source) {
-  std::set<std::string> files;
-  if (!source.made) files.insert(source.path.string());
-  collect_files(document, files);
-  return {files.begin(), files.end()};
+  std::set<std::string> included;
+  collect_files(document, included);
+  std::vector<std::filesystem::path> files;
+  if (!source.made) files.push_back(source.path);
+  for (const std::string& file : included) {
+    if (source.made || file != source.path.string()) files.emplace_back(file);
+  }
+  return files;
 }
 
 /// Completes a camera with `frame`: its default direction, and the frame of the pose. Overrides of `frames`

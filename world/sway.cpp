@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world/sway.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,9 @@
 namespace pelage {
 namespace {
 
-constexpr int kHistory = 24;  // half frames
+/// A vibration is forgotten where less than this fraction of it is left, and after kMaxHistory half frames.
+constexpr double kForgotten = 0.01;
+constexpr int kMaxHistory = 96;
 /// Tips lag by at most this fraction of the length of their guides.
 constexpr double kMostLag = 0.9;
 
@@ -80,11 +83,15 @@ const std::vector<Sway::Place>& Sway::places(int half) {
 GuideTurns Sway::at(int half) {
   std::vector<V3d> lags(feet_.size(), V3d(0));
   const double quiet = frequency_ * std::sqrt(std::max(1e-6, 1 - damping_ * damping_));
-  for (int k = 1; k <= kHistory; ++k) {
+  const double lasts = -std::log(kForgotten) / (std::max(1e-6, damping_) * frequency_ * step_);
+  const int history = static_cast<int>(std::ceil(std::clamp(lasts, 1.0, double{kMaxHistory})));
+  for (int k = 1; k <= history; ++k) {
     const std::vector<Place>&after = places(half - k + 1), &here = places(half - k),
           &before = places(half - k - 1);
     const double age = k * step_;
-    const double answer = std::exp(-damping_ * frequency_ * age) * std::sin(quiet * age) / quiet;
+    // Fades to 0 at the end of the history, so that a long vibration does not stop at once.
+    const double past = static_cast<double>(k) / (history + 1), fade = 1 - past * past * past * past;
+    const double answer = fade * std::exp(-damping_ * frequency_ * age) * std::sin(quiet * age) / quiet;
     for (size_t g = 0; g < feet_.size(); ++g)
       lags[g] -= (after[g].tip - here[g].tip * 2.0 + before[g].tip) * (answer / step_);
   }

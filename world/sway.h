@@ -11,7 +11,7 @@
 namespace pelage {
 
 /// Lag and sway of the guides of a coat with `mode: kinematic`. Each guide is a damped spring that carries
-/// its tip, and whose foot follows the skin. The lag of the tip is the sum, over the last 24 half frames, of
+/// its tip, and whose foot follows the skin. The lag of the tip is the sum, over the last half frames, of
 /// the changes of the foot's velocity times the free vibration that each of them starts. So it depends on the
 /// poses of this time alone, and on no frame before. The foot moves with a triangle of the cage near the
 /// root, which need not be subdivided. Arguments of the constructor must outlive the object.

@@ -3,6 +3,30 @@
 
 namespace pelage {
 
+namespace {
+
+void add_sway(Schema<DynamicsParams>& s) {
+  s.key("sway_frequency", &DynamicsParams::sway_frequency,
+        {.unit = "Hz", .help = "How often a guide sways in a second", .min = 0, .above_min = true});
+  s.key("sway_damping", &DynamicsParams::sway_damping,
+        {.help = "How fast swaying ends: 1 without swaying back, small values slowly, but within two "
+                 "seconds at 24 frames per second",
+         .min = 0,
+         .max = 1});
+}
+
+void add_time(Schema<DynamicsParams>& s) {
+  s.key("start", &DynamicsParams::start,
+        {.help = "First frame that is meant to be seen", .min = -1'000'000, .max = 1'000'000});
+  s.key("preroll", &DynamicsParams::preroll,
+        {.unit = "frames",
+         .help = "The simulation begins this long before `start`, as groomed",
+         .min = 0,
+         .max = 100000});
+}
+
+}  // namespace
+
 const Schema<DynamicsParams>& DynamicsParams::schema() {
   static const Schema<DynamicsParams> table = [] {
     Schema<DynamicsParams> s(
@@ -36,7 +60,10 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
     s.key("density", &DynamicsParams::density,
           {.unit = "kg / m^3", .help = "Density of a strand; keratin has 1300", .min = 0, .above_min = true});
     s.key("youngs_modulus", &DynamicsParams::youngs_modulus,
-          {.unit = "Pa", .help = "Stiffness of a strand; dry hair has 3e9 to 5e9, wet hair 1e9", .min = 0});
+          {.unit = "Pa",
+           .help = "Stiffness of a strand; dry hair has 3e9 to 5e9, wet hair 1e9",
+           .min = 0,
+           .above_min = true});
     s.key("diameter", &DynamicsParams::diameter,
           {.unit = "m",
            .help = "Diameter of a strand. Stiffness grows with its fourth power, weight with its square",
@@ -60,16 +87,8 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
           {.help = "Steps per frame, rounded up to an even number. More are slower and damp less",
            .min = 2,
            .max = 1000});
-    s.key("sway_frequency", &DynamicsParams::sway_frequency,
-          {.unit = "Hz", .help = "How often a guide sways in a second", .min = 0, .above_min = true});
-    s.key("sway_damping", &DynamicsParams::sway_damping,
-          {.help = "How fast swaying ends: 0 never, 1 without swaying back", .min = 0, .max = 1});
-    s.key("start", &DynamicsParams::start, {.help = "First frame that is meant to be seen"});
-    s.key("preroll", &DynamicsParams::preroll,
-          {.unit = "frames",
-           .help = "The simulation begins this long before `start`, as groomed",
-           .min = 0,
-           .max = 100000});
+    add_sway(s);
+    add_time(s);
     s.key("directory", &DynamicsParams::directory,
           {.help = "Folder of the stored motion, one file per frame. You may delete files at any time",
            .default_text = "`cache` in the current folder",

@@ -192,6 +192,8 @@ def _frame(frame: Any) -> float | None:
     number = float(frame)
     if not math.isfinite(number):
         raise ValueError(f"frame: expected a finite number, got {number}")
+    if abs(number) > 1e6:
+        raise ValueError(f"frame: expected a number from -1000000 to 1000000, got {number}")
     return number
 
 

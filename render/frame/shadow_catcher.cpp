@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/shadow_catcher.h"
 
+#include <algorithm>
 #include <variant>
 
 #include "render/frame/camera_samples.h"
@@ -23,8 +24,8 @@ ShadowCatcher::ShadowCatcher(const FrameScene& scene, const Accel& accel)
   }
 }
 
-Rgb ShadowCatcher::blocked(const Ray& ray, const Hit& hit, SampleStream& stream, DirectLightScratch& lights,
-                           SampleScratch& scratch) const {
+ShadowCatcher::Blocked ShadowCatcher::blocked(const Ray& ray, const Hit& hit, SampleStream& stream,
+                                              DirectLightScratch& lights, SampleScratch& scratch) const {
   const SkinPoint at = skin_point(scratch.thread.hit_geometry.triangle, ray, hit);
   // White, whatever the colour of the skin, so that the fraction of each channel is known.
   ScatterPoint point(at.position, at.start, LambertBsdf(Rgb(1), at.normal));
@@ -47,11 +48,12 @@ Rgb ShadowCatcher::blocked(const Ray& ray, const Hit& hit, SampleStream& stream,
     const float through = scratch.light_through(accel_, shadow);
     lost += to.value.total() * to.arriving * (factor * (1 - through));
   });
-  Rgb fraction(0);
+  Blocked blocked;
   for (int c = 0; c < 3; ++c) {
-    if (all[c] > 0) fraction[c] = lost[c] / all[c];
+    if (all[c] > 0) blocked.fraction[c] = lost[c] / all[c];
   }
-  return fraction;
+  if (luminance(all) > 0) blocked.alpha = std::clamp(luminance(lost) / luminance(all), 0.0f, 1.0f);
+  return blocked;
 }
 
 }  // namespace pelage

@@ -23,12 +23,16 @@ class ShadowCatcher {
 
   bool is_catcher(const Hit& hit) const { return any_ && hit.kind == HitKind::kSkin && of_skin_[hit.part]; }
 
-  /// Estimates, by channel, the fraction of the irradiance of a catcher that something blocks. The estimate
-  /// is 0 where nothing blocks any light. It is the ratio of two sums over the same points on lights, so it
-  /// has the small bias of such ratios. `ray`: of the camera; `scratch` has the geometry of its hit.
-  /// `stream`: of the sample.
-  Rgb blocked(const Ray& ray, const Hit& hit, SampleStream& stream, DirectLightScratch& lights,
-              SampleScratch& scratch) const;
+  struct Blocked {
+    Rgb fraction{0};  ///< by channel; noise may bring it below 0 or above 1
+    float alpha = 0;  ///< of the luminance, 0 to 1
+  };
+  /// Estimates the fraction of the irradiance of a catcher that something blocks. The estimate is 0 where
+  /// nothing blocks any light. It is the ratio of two sums over the same points on lights, so it has the
+  /// small bias of such ratios. `ray`: of the camera; `scratch` has the geometry of its hit. `stream`: of the
+  /// sample.
+  Blocked blocked(const Ray& ray, const Hit& hit, SampleStream& stream, DirectLightScratch& lights,
+                  SampleScratch& scratch) const;
 
  private:
   const Accel& accel_;

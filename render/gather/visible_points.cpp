@@ -65,10 +65,11 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   if (!hit) return;
   if (catcher_.is_catcher(hit)) {
     SampleStream stream = camera_.stream(tile.x(pixel), tile.y(pixel), sample);
-    const Rgb blocked = catcher_.blocked(ray, hit, stream, scratch.direct, thread);
-    tile.samples.back().alpha = luminance(blocked);
-    background_lights(scene_.lights, ray.origin, ray.direction, ray.time,
-                      [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked)); });
+    const auto blocked = catcher_.blocked(ray, hit, stream, scratch.direct, thread);
+    tile.samples.back().alpha = blocked.alpha;
+    background_lights(
+        scene_.lights, ray.origin, ray.direction, ray.time,
+        [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked.fraction)); });
     return;
   }
   tile.samples.back().alpha = 1;

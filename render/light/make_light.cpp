@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "geom/io/obj_file.h"
 #include "geom/polygon_cut.h"
@@ -35,8 +38,15 @@ std::vector<MeshLight::Triangle> triangles_of(ControlMesh cage, const M44f& to_s
   std::vector<MeshLight::Triangle> triangles;
   std::vector<V3f> corners;
   std::vector<uint32_t> cut;
+  std::set<std::vector<uint32_t>> known;  // faces, each from its smallest vertex on
   const uint32_t* vertex = cage.face_vertices.data();
   for (const uint32_t size : cage.face_sizes) {
+    std::vector<uint32_t> face(vertex, vertex + size);
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    if (!known.insert(std::move(face)).second) {  // light of a doubled face would be counted twice
+      vertex += size;
+      continue;
+    }
     corners.clear();
     cut.clear();
     for (uint32_t i = 0; i < size; ++i) corners.push_back(cage.positions[vertex[i]]);
@@ -103,7 +113,10 @@ struct LightMaker {
     if (!(area > 0))
       throw Error(ErrorKind::kInput, p.file.position, quote(p.file.path.string()) + " has no area");
     const float unit = radiance_of(p.power, static_cast<float>(area));
-    return std::make_unique<MeshLight>(name, std::move(triangles), radiance(p) * unit, p.visible);
+    MemoryCharge charge = reserve(ledger, MemoryTag::kSkins, MeshLight::bytes(triangles.size()),
+                                  "the triangles of the light " + name);
+    return std::make_unique<MeshLight>(name, std::move(triangles), radiance(p) * unit, p.visible,
+                                       std::move(charge));
   }
 
   std::unique_ptr<Light> operator()(const EnvironmentLightParams& p) const {

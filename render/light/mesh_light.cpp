@@ -43,8 +43,12 @@ bool meets(const Box3f& box, const V3f& from, const V3f& inverse, float far) {
 
 }  // namespace
 
-MeshLight::MeshLight(std::string name, std::vector<Triangle> triangles, const Rgb& radiance, bool visible)
-    : Light(std::move(name), visible), triangles_(std::move(triangles)), radiance_(radiance) {
+MeshLight::MeshLight(std::string name, std::vector<Triangle> triangles, const Rgb& radiance, bool visible,
+                     MemoryCharge charge)
+    : Light(std::move(name), visible),
+      charge_(std::move(charge)),
+      triangles_(std::move(triangles)),
+      radiance_(radiance) {
   std::erase_if(triangles_, [](const Triangle& t) { return !(twice_area(t).length() > 0); });
   PELAGE_CHECK(!triangles_.empty());
   build(0, static_cast<uint32_t>(triangles_.size()));
@@ -84,12 +88,13 @@ void MeshLight::build(uint32_t first, uint32_t count) {
 std::optional<MeshLight::Crossing> MeshLight::nearest(const V3f& from, const V3f& direction) const {
   const V3f inverse(1 / direction.x, 1 / direction.y, 1 / direction.z);
   Crossing best;
+  const auto faces = [&](uint32_t i) { return twice_area(triangles_[i]).dot(direction) < 0; };
   uint32_t stack[64], size = 0;  // the tree halves the count of triangles at each level
   stack[size++] = 0;
   while (size > 0) {
     const uint32_t index = stack[--size];
     const Node& node = nodes_[index];
-    if (!meets(node.box, from, inverse, best.distance)) continue;
+    if (!meets(node.box, from, inverse, best.distance * (1 + kSame))) continue;
     if (node.second > 0) {
       stack[size++] = node.second;
       stack[size++] = index + 1;
@@ -97,7 +102,12 @@ std::optional<MeshLight::Crossing> MeshLight::nearest(const V3f& from, const V3f
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       const float distance = cross(triangles_[i], from, direction);
-      if (distance < best.distance) best = {distance, i};
+      if (!std::isfinite(distance)) continue;
+      // Of faces back to back, the one that faces the ray is seen.
+      const bool is_same =
+          std::isfinite(best.distance) && std::abs(distance - best.distance) <= kSame * best.distance;
+      const bool is_nearer = is_same ? faces(i) && !faces(best.triangle) : distance < best.distance;
+      if (is_nearer) best = {distance, i};
     }
   }
   return std::isfinite(best.distance) ? std::optional(best) : std::nullopt;

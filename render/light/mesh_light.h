@@ -18,8 +18,14 @@ class MeshLight final : public Light {
     V3f corners[3];
   };
 
-  /// `triangles`: at least one with an area.
-  MeshLight(std::string name, std::vector<Triangle> triangles, const Rgb& radiance, bool visible);
+  /// Returns the memory, in bytes, that a light of so many triangles takes at most.
+  static int64_t bytes(size_t triangles) {
+    return static_cast<int64_t>(triangles * (sizeof(Triangle) + sizeof(float) + 2 * sizeof(Node)));
+  }
+
+  /// `triangles`: at least one with an area, none twice. `charge`: for bytes().
+  MeshLight(std::string name, std::vector<Triangle> triangles, const Rgb& radiance, bool visible,
+            MemoryCharge charge = {});
 
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
@@ -46,6 +52,7 @@ class MeshLight final : public Light {
   std::optional<Crossing> nearest(const V3f& from, const V3f& direction) const;
   V3f normal(uint32_t triangle) const;
 
+  MemoryCharge charge_;
   std::vector<Triangle> triangles_;
   std::vector<float> below_;  // by triangle: area of those before it and its own, relative to all
   std::vector<Node> nodes_;

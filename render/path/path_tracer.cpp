@@ -80,10 +80,11 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
   seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time, path.hit.distance, see);
   if (!path.hit) return;
   if (catcher_.is_catcher(path.hit)) {
-    const Rgb blocked = catcher_.blocked(path.ray, path.hit, path.stream, scratch.direct, scratch);
-    scratch.sample.alpha = luminance(blocked);
-    background_lights(scene_.lights, path.ray.origin, path.ray.direction, path.time,
-                      [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked)); });
+    const auto blocked = catcher_.blocked(path.ray, path.hit, path.stream, scratch.direct, scratch);
+    scratch.sample.alpha = blocked.alpha;
+    background_lights(
+        scene_.lights, path.ray.origin, path.ray.direction, path.time,
+        [&](size_t light, const Rgb& radiance) { see(light, radiance * (Rgb(1) - blocked.fraction)); });
     return;
   }
   scratch.sample.alpha = 1;

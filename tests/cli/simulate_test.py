@@ -48,6 +48,9 @@ class Simulate(ProgramTest):
         self.assertIn("coat 'box.coat' has no simulated motion for frame 3; run: pelage simulate scene.yaml --frames 3",
                       err)
         self.assertEqual(err.count("\n"), 1)
+        (self.path / "zoo.yaml").write_text("pelage: 1\ninclude: scene.yaml\n")
+        err = self.run_pelage("render", "zoo.yaml", "-o", "a.exr", *MOVING, *folder, code=3)[1]
+        self.assertIn("run: pelage simulate zoo.yaml --frames 1", err)
         self.simulate("3", "a")
         moved = self.pixels(3, *MOVING, *folder)
         self.assertNotEqual(moved, self.pixels(3))

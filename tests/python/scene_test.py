@@ -156,6 +156,17 @@ class Renders(unittest.TestCase):
             seen[-1][0].layers()
         self.assertTrue(same_layers(picture, scene.render()))
 
+    def test_a_callback_cannot_wait_for_the_call_that_waits_for_it(self):
+        scene = self.slow_scene()
+        with self.assertRaisesRegex(RuntimeError, "a callback cannot grow or render the scene that calls it"):
+            scene.render(on_pass=lambda _: scene.render())
+        with self.assertRaisesRegex(RuntimeError, "a callback cannot grow or render the scene that calls it"):
+            scene.render(progress=lambda *_: scene.grow("coat"))
+
+    def test_other_files_than_pictures_are_refused(self):
+        with self.assertRaisesRegex(pelage.Error, r"a.gif' must end in \.exr, \.png or \.jpg"):
+            pelage.Scene(scene_values()).render(output="a.gif")
+
     def test_exceptions_of_callbacks_come_through(self):
         def fail(*_):
             raise LookupError("enough")

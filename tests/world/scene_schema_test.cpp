@@ -230,7 +230,7 @@ TEST_F(SceneSchema, KnowsTheFilesThatItIsReadFrom) {
   const SceneDescription scene =
       load("include: lights.yaml\n" + std::string(kScene), {{"render.samples", "3"}});
   std::vector<std::filesystem::path> files;
-  for (const char* name : {"lights.yaml", "s.yaml", "rat.obj", "eyes.obj", "a.hair"})
+  for (const char* name : {"s.yaml", "lights.yaml", "rat.obj", "eyes.obj", "a.hair"})
     files.push_back(folder_.path() / name);
   EXPECT_EQ(scene.files, files);
 }

@@ -231,6 +231,20 @@ TEST(MeshLight, AgreesAndHidesItsFarSide) {
   EXPECT_EQ(light.intersect(V3f(4, 0.3f, 0.2f), V3f(-1, 0, 0))->distance, 3);
 }
 
+TEST(MeshLight, FacesBackToBackShineBothWays) {
+  const MeshLight::Triangle front{{V3f(0), V3f(1, 0, 0), V3f(0, 1, 0)}},
+      back{{V3f(0), V3f(0, 1, 0), V3f(1, 0, 0)}};
+  for (const bool front_first : {true, false}) {
+    const std::vector<MeshLight::Triangle> sheet =
+        front_first ? std::vector{front, back} : std::vector{back, front};
+    const MeshLight light("mesh", sheet, Rgb(1), true);
+    for (const float z : {1.0f, -1.0f}) {
+      expect_agreement(light, V3f(0.3f, 0.3f, z));
+      EXPECT_TRUE(light.intersect(V3f(0.3f, 0.3f, z), V3f(0, 0, -z)));
+    }
+  }
+}
+
 TEST(MeshLight, PassesChiSquareOverDirections) {
   // In a grid around a point beside the mesh: the density is smooth within a side, so that edges only matter
   // in a few cells, whose integral the fine steps find.
