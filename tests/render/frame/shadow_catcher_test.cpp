@@ -56,7 +56,9 @@ LambertParams catcher() {
 
 TEST(ShadowCatcher, ShowsTheBackgroundAsItIsWhereNothingBlocksLight) {
   for (const Integrator integrator : kIntegrators) {
-    const Film film = WallScene(catcher(), false, integrator).run().film;
+    WallScene scene(catcher(), false, integrator);
+    const FrameResult result = scene.run();
+    const Film& film = result.film;
     for (int y = 0; y < 16; ++y) {
       for (int x = 0; x < 16; ++x) {
         EXPECT_EQ(film.alpha(x, y), 0);
@@ -68,10 +70,14 @@ TEST(ShadowCatcher, ShowsTheBackgroundAsItIsWhereNothingBlocksLight) {
 }
 
 TEST(ShadowCatcher, KeepsTheFractionOfLightThatADiffuseWallKeeps) {
-  const Film open = WallScene(LambertParams{}, false, Integrator::kPath).run().film;
-  const Film shadowed = WallScene(LambertParams{}, true, Integrator::kPath).run().film;
+  WallScene without_ball(LambertParams{}, false, Integrator::kPath);
+  WallScene with_ball(LambertParams{}, true, Integrator::kPath);
+  const FrameResult lit = without_ball.run(), dark = with_ball.run();
+  const Film &open = lit.film, &shadowed = dark.film;
   for (const Integrator integrator : kIntegrators) {
-    const Film caught = WallScene(catcher(), true, integrator).run().film;
+    WallScene scene(catcher(), true, integrator);
+    const FrameResult result = scene.run();
+    const Film& caught = result.film;
     float darkest = 1;
     for (int y = 0; y < 16; y += 4) {
       for (int x = 0; x < 16; x += 4) {
