@@ -40,13 +40,13 @@ lights:
 render: {{samples: 64, bounces: 3, lod: {{enabled: false}}}}
 """
 LIGHTS = [
-    "{type: rectangle, position: [-4, 5, 3], look_at: [0, 0.3, 0], size: [3, 3], radiance: 24}",
-    "{type: disk, position: [-4, 5, 3], look_at: [0, 0.3, 0], radius: 1.7, power: 680}",
+    "{type: rectangle, position: [-4, 5, 3], look_at: [0, 0.3, 0], size: [3, 3], radiance: 9}",
+    "{type: disk, position: [-4, 5, 3], look_at: [0, 0.3, 0], radius: 1.7, power: 260}",
     "{type: sphere, position: [-2.2, 1.6, 1], radius: 0.5, power: 150, temperature: 4000}",
-    "{type: point, position: [-1.2, 1.6, 1.4], power: 110, temperature: 2700}",
-    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 9000, cone: 16, softness: 0.4}",
-    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 9000, cone: 26, file: GOBO}",
-    "{type: sun, direction: [2, -1.1, -0.6], irradiance: 5, temperature: 5000}",
+    "{type: point, position: [-1.2, 1.6, 1.4], power: 70, temperature: 2700}",
+    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 4500, cone: 16, softness: 0.4}",
+    "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 4500, cone: 26, file: GOBO}",
+    "{type: sun, direction: [2, -1.1, -0.6], irradiance: 3.5, temperature: 5000}",
     "{type: mesh, file: TUBES, power: 220, temperature: 9000}",
 ]
 
