@@ -15,8 +15,9 @@
 
 namespace pelage {
 
-/// Progress of one call from Python. Worker threads only store what they report. The thread that Python
-/// called passes it on to the callback progress(stage, fraction), and its warnings to the module `warnings`.
+/// Progress of one call from Python. Worker threads only store their reports. The thread that called
+/// from Python passes reports to the callback progress(stage, fraction), and warnings to the module
+/// `warnings`.
 ///
 /// Thread safety: members of Progress, stop() and fail() may be called from any thread.
 class PythonProgress final : public Progress {

@@ -17,10 +17,11 @@ struct SimulationReport {
   double seconds = 0;     ///< time of the simulation, without reading the scene
 };
 
-/// Simulates a coat and stores its motion for the frames first .. last. Frames that are stored are not
-/// computed again. Continues from the latest stored frame before the first missing one, so the frames are the
-/// same however their range is divided over runs (law 1). `scene_times`: calls with the frame after each
-/// computed frame. Throws Error: kFailed if the motion cannot be written, kStopped when the job is stopped.
+/// Simulates a coat and stores its motion for the frames first .. last. Continues from the latest
+/// stored frame before the first missing one, and computes all frames up to the last missing one. So the
+/// frames are the same however their range is divided over runs (law 1). Calls `done(frame)` after each
+/// computed frame. Throws Error: kArguments if a frame is too far from the begin, kFailed if the motion
+/// cannot be written, kStopped when the job is stopped.
 SimulationReport simulate(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat,
                           int first, int last, const Job& job, const std::function<void(int)>& done);
 

@@ -24,7 +24,7 @@ std::vector<std::string> linkable_names(const SceneDescription& scene) {
   return names;
 }
 
-/// Whether a name is that of a part, or of what the part belongs to.
+/// Whether `name` names a part, or something that contains the part.
 bool includes(const std::string& name, const std::string& part) {
   return part.starts_with(name) && (part.size() == name.size() || part[name.size()] == '.');
 }

@@ -24,7 +24,7 @@ struct MovingGuides {
   void place(size_t count, const FollicleTree& coat, const LimitSurface& rest);
 };
 
-/// Turns the segments of strands like those of the guides around them (StrandBatch::turns), as `dynamics` of
+/// Turns each segment of a strand as the guides around it turn (StrandBatch::turns), as `dynamics` of
 /// a groom asks. The weight of a guide falls with its distance as for the operator `guides`. Segments keep
 /// their lengths. Strands without a guide nearby, and all strands at rest, stay as they are.
 class Follow final : public Operator {

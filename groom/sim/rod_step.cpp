@@ -59,7 +59,8 @@ void Rod::start_step(const RodRoot& root, const RodForces& forces, double second
     work.expected[i] =
         state.positions[i] + state.velocities[i] * seconds + forces.gravity * (seconds * seconds);
   if (!is_clamped_) return;
-  // Newton starts where the root would take a rigid rod: its inner forces are those of the last step.
+  // Newton starts where the root would take a rigid rod: its inner forces are then the forces of the last
+  // step.
   const Quatd turn = root.frame * ~state.root.frame;
   for (V3d& position : state.positions)
     position = root.position + turned(turn, position - state.root.position);

@@ -35,7 +35,7 @@ class Problem(NamedTuple):
 class Error(ValueError):
     """A mistake in a scene, a file or an argument, or a failure of the system.
 
-    `problems` holds all mistakes that were found; `file`, `line`, `column` and `nearest` are those of the first.
+    `problems` lists all mistakes; `file`, `line`, `column` and `nearest` describe the first.
     `kind` is "input", "arguments", "memory", "failed" or "stopped". str() has one line per problem.
     """
 

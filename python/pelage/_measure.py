@@ -12,16 +12,21 @@ from ._values import changes
 
 def program() -> str:
     """Returns the program `pelage` of this installation: PELAGE_PROGRAM, the one beside the package, or on PATH."""
+    import pathlib
     import shutil
 
     named = os.environ.get("PELAGE_PROGRAM")
     if named:
         return named
-    folder = os.path.dirname(os.path.realpath(__file__))
-    while os.path.dirname(folder) != folder:
-        folder = os.path.dirname(folder)
-        if os.path.isfile(os.path.join(folder, "bin", "pelage")):
-            return os.path.join(folder, "bin", "pelage")
+    # In PREFIX/lib/.../pelage, or in python/pelage of a build folder. No other folder above is searched: a stranger
+    # may have put a program there.
+    parents = pathlib.Path(__file__).resolve().parents
+    prefix = next((p.parent for p in parents if p.name == "lib"), None)
+    if parents[1].name == "python":
+        prefix = parents[2]
+    beside = prefix / "bin" / "pelage" if prefix else None
+    if beside and beside.is_file():
+        return str(beside)
     found = shutil.which("pelage")
     if found is None:
         raise FileNotFoundError("the program 'pelage' is neither beside the package nor on PATH; set PELAGE_PROGRAM")

@@ -89,7 +89,7 @@ class Pass:
         self.coarse: bool = view.coarse
 
     def layers(self, *names: str) -> dict[str, NDArray[Any]]:
-        """Returns the layers of these names, or all, as a dict of arrays like those of a Picture."""
+        """Returns the layers of these names, or all, as a dict of arrays, as in a Picture."""
         return self._view.layers(list(names) or None)
 
     def __getitem__(self, layer: str) -> NDArray[Any]:

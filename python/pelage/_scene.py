@@ -158,7 +158,7 @@ class Scene:
 def open(path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, threads: int = 0) -> Scene:
     """Opens a scene file.
 
-    set: values that replace those of the file, by key. threads: number of threads; 0 means all processors.
+    set: values that replace values of the file, by key. threads: number of threads; 0 means all processors.
     Raises pelage.Error with all mistakes of the file, each with line and column.
     """
     return Scene._open(path, set, threads)

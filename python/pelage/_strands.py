@@ -174,7 +174,7 @@ class Strands:
 
 
 def _per_point(values: NDArray[np.float32], shape: tuple[int, ...], lengths: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Returns one width per point. `shape`: that of the points, without coordinates."""
+    """Returns one width per point. `shape`: the shape of the points, without coordinates."""
     import numpy as np
 
     if values.shape == (len(lengths), 1):

@@ -137,14 +137,14 @@ const Schema<SpotLightParams>& SpotLightParams::schema() {
 
 const Schema<SunLightParams>& SunLightParams::schema() {
   static const Schema<SunLightParams> table = [] {
-    Schema<SunLightParams> s("sun", "A disc at infinity: nearly parallel light, such as that of the sun.");
+    Schema<SunLightParams> s("sun", "A disk at infinity, such as the sun: its light is nearly parallel.");
     s.set_example(R"(lights:
   sun: {type: sun, direction: [1, -2, -1], irradiance: 4, temperature: 5500}
   sky: {type: environment, radiance: [0.2, 0.3, 0.5]})");
     s.key("direction", &SunLightParams::direction, {.help = "Direction in which the light travels"});
     s.key("angle", &SunLightParams::angle,
           {.unit = "degrees",
-           .help = "Diameter of the disc; larger discs cast softer shadows. That of the sun is 0.53",
+           .help = "Diameter of the disk; a larger disk casts softer shadows. The sun has 0.53",
            .min = 0.001,
            .max = 180});
     s.key("irradiance", &SunLightParams::irradiance,
@@ -170,7 +170,8 @@ const Schema<MeshLightParams>& MeshLightParams::schema() {
   tube: {type: mesh, file: tube.obj, transform: {translate: [0, 3, 0]}, power: 200})");
     s.key("file", &MeshLightParams::file, {.help = "OBJ file; faces are flat", .required = true});
     s.key("transform", &MeshLightParams::transform,
-          {.help = "From the coordinates of the file to those of the scene", .default_text = "none"});
+          {.help = "Transform from the coordinates of the file to scene units and axes",
+           .default_text = "none"});
     s.key("power", &MeshLightParams::power, kPower);
     add_emission_keys(s, kRadiance, kRadianceUnit);
     return s;

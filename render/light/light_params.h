@@ -17,8 +17,7 @@ namespace pelage {
 class TextureLibrary;
 
 // Lengths are in scene units, also in the units of radiance and irradiance. The radiance of a light is
-// color()
-// * strength() * unit_radiance(): of a light with a power, `radiance` is only a colour.
+// color() * strength() * unit_radiance(). If the light has a power, `radiance` is only a colour.
 
 struct RectangleLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
@@ -81,7 +80,7 @@ struct SunLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "sun";
   Keyed<V3f> direction{V3f(0, -1, 0)};  ///< in which the light travels, of any length
-  float angle = 0.53f;                  ///< diameter of the disc in degrees
+  float angle = 0.53f;                  ///< diameter of the disk in degrees
   std::optional<float> irradiance;      ///< W/m2, on a surface that faces the sun
   float unit_radiance() const;
   static const Schema<SunLightParams>& schema();

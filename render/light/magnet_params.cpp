@@ -3,20 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "render/light/aim.h"
 #include "render/light/rectangle_light.h"
 #include "render/light/sphere_light.h"
-#include "render/sampling/warp.h"
 
 namespace pelage {
 namespace {
 
-const KeyOptions kShareHelp{
-    .help =
-        "Fraction of the rays from a surface that the magnet attracts, where it is in "
-        "front of the surface or behind it; at least a tenth of the rays follow the "
-        "surface alone, whatever the number of magnets",
-    .min = 0,
-    .max = 1};
+const KeyOptions kShareHelp{.help =
+                                "Fraction of the rays leaving a surface that the magnet attracts. All "
+                                "magnets together attract at most "
+                                "nine tenths of the rays",
+                            .min = 0,
+                            .max = 1};
 
 }  // namespace
 
@@ -66,22 +65,13 @@ MagnetSet::Magnet make_magnet(const std::string& name, const MagnetParams& param
             sphere->share};
   }
   const auto& p = std::get<RectangleMagnetParams>(params);
-  Rectangle shape;
-  shape.center = relative_to(p.position, origin).at(frame);
-  const V3f forward = relative_to(p.look_at, origin).at(frame) - shape.center;
-  if (!(forward.length() > 0)) {
+  const V3f center = relative_to(p.position, origin).at(frame);
+  const std::optional<Aim> aim = Aim::at(center, relative_to(p.look_at, origin).at(frame), p.up);
+  if (!aim) {
     throw Error(ErrorKind::kInput,
                 fmt::format("magnets.{}: position and look_at are the same point at frame {}", name, frame));
   }
-  const V3f normal = forward.normalized();
-  shape.x = p.up.cross(normal);
-  if (shape.x.length() > 1e-6f * p.up.length()) {
-    shape.x.normalize();
-  } else {
-    complete_frame(normal, shape.x, shape.y);
-  }
-  shape.y = normal.cross(shape.x);
-  shape.half_size = p.size * 0.5f;
+  const Rectangle shape{center, aim->x, aim->y, p.size * 0.5f};
   return {std::make_unique<RectangleLight>(name, shape, Rgb(1), true, false), p.share};
 }
 

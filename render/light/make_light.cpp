@@ -13,6 +13,7 @@
 #include "geom/io/obj_file.h"
 #include "geom/polygon_cut.h"
 #include "image/texture_library.h"
+#include "render/light/aim.h"
 #include "render/light/disk_light.h"
 #include "render/light/environment_light.h"
 #include "render/light/light_params.h"
@@ -58,11 +59,6 @@ std::vector<MeshLight::Triangle> triangles_of(ControlMesh cage, const M44f& to_s
   return triangles;
 }
 
-/// Three perpendicular unit vectors: z in a given direction, y as near as possible to an up vector.
-struct Axes {
-  V3f x, y, z;
-};
-
 struct LightMaker {
   const std::string& name;
   double frame;
@@ -71,7 +67,7 @@ struct LightMaker {
   const V3f& origin;
 
   std::unique_ptr<Light> operator()(const RectangleLightParams& p) const {
-    const Axes axes = facing(p, p.up);
+    const Aim axes = facing(p, p.up);
     const Rectangle shape{center(p), axes.x, axes.y, p.size * 0.5f};
     return std::make_unique<RectangleLight>(name, shape, radiance(p), p.two_sided, p.visible, image(p.file));
   }
@@ -90,7 +86,7 @@ struct LightMaker {
   }
 
   std::unique_ptr<Light> operator()(const SpotLightParams& p) const {
-    const Axes axes = facing(p, p.up);
+    const Aim axes = facing(p, p.up);
     SpotCone cone{-axes.x, axes.y, axes.z, 0.5f * p.cone * kRadians, p.softness, image(p.file)};
     return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(cone), radiance(p), p.visible);
   }
@@ -139,20 +135,10 @@ struct LightMaker {
   }
 
   template <class Params>
-  Axes facing(const Params& p, const V3f& up) const {
-    const V3f forward = relative_to(p.look_at, origin).at(frame) - center(p);
-    if (!(forward.length() > 0)) refuse("position and look_at are the same point");
-    Axes axes;
-    axes.z = forward.normalized();
-    axes.x = up.cross(axes.z);
-    if (axes.x.length() > 1e-6f * up.length()) {
-      axes.x.normalize();
-    } else {
-      V3f unused;
-      complete_frame(axes.z, axes.x, unused);
-    }
-    axes.y = axes.z.cross(axes.x);
-    return axes;
+  Aim facing(const Params& p, const V3f& up) const {
+    const std::optional<Aim> aim = Aim::at(center(p), relative_to(p.look_at, origin).at(frame), up);
+    if (!aim) refuse("position and look_at are the same point");
+    return *aim;
   }
 
   template <class Params>
@@ -165,7 +151,7 @@ struct LightMaker {
     return with_place_of(file, [&] { return textures.load(file, ColorSpace::kAuto); });
   }
 
-  /// Makes something from an image. Errors without a place get that of the image's name in the scene.
+  /// Makes something from a file. An error without a line gets the place where the scene names the file.
   template <class Make>
   std::invoke_result_t<Make> with_place_of(const AssetPath& file, const Make& make) const {
     try {
@@ -174,9 +160,8 @@ struct LightMaker {
       if (error.kind() == ErrorKind::kStopped) throw;
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) {
-        if (problem.position.file.empty()) {
+        if (problem.position.line == 0)
           problem = {file.position, fmt::format("{}: {}", file.path.string(), problem.message)};
-        }
       }
       throw Error(error.kind(), std::move(problems));
     }

@@ -2,7 +2,10 @@
 // Disks, spots, suns and images on lights: sampling, density and brightness.
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+#include "image/texture_library.h"
 #include "render/light/disk_light.h"
+#include "render/light/light_params.h"
 #include "render/light/mesh_light.h"
 #include "render/light/rectangle_light.h"
 #include "render/light/spot_light.h"
@@ -242,6 +245,21 @@ TEST(MeshLight, FacesBackToBackShineBothWays) {
       expect_agreement(light, V3f(0.3f, 0.3f, z));
       EXPECT_TRUE(light.intersect(V3f(0.3f, 0.3f, z), V3f(0, 0, -z)));
     }
+  }
+}
+
+TEST(MeshLight, AMissingFileIsNamedWhereTheSceneNamesIt) {
+  MemoryLedger ledger;
+  TextureLibrary textures(ledger);
+  MeshLightParams params;
+  params.file.path = "missing.obj";
+  params.file.position = {"scene.yaml", 7, 12};
+  try {
+    make_light("tubes", params, 1, textures, ledger);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(to_string(error.problems().front().position), "scene.yaml:7:12");
+    EXPECT_NE(error.problems().front().message.find("missing.obj"), std::string::npos);
   }
 }
 
