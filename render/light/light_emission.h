@@ -8,8 +8,17 @@
 #include "base/keyed.h"
 #include "base/schema.h"
 #include "base/value_readers.h"
+#include "base/vector.h"
 
 namespace pelage {
+
+/// Temperatures in kelvin for which black_body_color() is defined.
+inline constexpr double kCoolestBlackBody = 1667, kHottestBlackBody = 25000;
+
+/// Returns the linear Rec. 709 colour of a black body, scaled to luminance 1. `kelvin`: clamped to the range
+/// above. The chromaticity is a cubic fit to the Planckian locus [Kang02]. Below about 1900 K, the colour is
+/// outside Rec. 709; then its blue is 0.
+Rgb black_body_color(float kelvin);
 
 /// The keys that all kinds of lights have.
 struct LightEmission {
@@ -42,8 +51,8 @@ void add_emission_keys(Schema<P>& s, std::string_view radiance_help, std::string
       {.unit = "K",
        .help = "Colour of a black body of this temperature, with luminance 1; multiplies the radiance. 2700: "
                "bulb, 6500: daylight",
-       .min = 1667,
-       .max = 25000});
+       .min = kCoolestBlackBody,
+       .max = kHottestBlackBody});
   key("visible", &LightEmission::visible,
       {.help = "Whether camera rays see the light; it always lights fur and skin"});
   key("shadows", &LightEmission::shadows, {.help = "Whether anything casts a shadow in this light"});

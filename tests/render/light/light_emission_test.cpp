@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/light/black_body.h"
+#include "render/light/light_emission.h"
 
 #include <algorithm>
 
