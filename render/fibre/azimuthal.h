@@ -70,6 +70,8 @@ inline float normal_sample(float xi) {
   constexpr float kFarthest = 1 - 0x1p-24f;
   return std::numbers::sqrt2_v<float> * inverse_erf(std::clamp(2 * xi - 1, -kFarthest, kFarthest));
 }
+/// Returns the probability that a standard normal variable is less than x.
+inline float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
 
 /// The normal distribution with mean 0 and the given standard deviation (radians), wrapped around the circle:
 /// the detector of [dEon11] and the azimuthal lobe of [Yan17]. Accurate for deviations up to 2 radians.

@@ -12,15 +12,6 @@ constexpr int kWalks = 4096;
 constexpr std::array<float, 12> kRoots = {0.02f, 0.04f, 0.08f, 0.14f, 0.22f, 0.33f,
                                           0.48f, 0.7f,  1.0f,  1.5f,  2.4f,  6.0f};
 
-/// Square roots of the gains per radius at which the brightness is computed for fibres that lose light.
-/// Larger gains make up for the mean loss, but slanted fibres then gain, and light grows without bound on
-/// some paths.
-constexpr std::array<float, 4> kGains = {0.06f, 0.1f, 0.13f, 0.16f};
-/// A white medium that reflects less than this loses light in its fibres. Walks that are cut off lose 0.05.
-constexpr double kLossless = 0.9;
-/// Part of the reference that fibres with gains reach: a little less than all keeps light from growing.
-constexpr double kRegained = 0.97;
-
 /// The root of the absorption where the decreasing brightness over kRoots equals `wanted`; the brightness at
 /// 0 is taken as 1, or more if needed.
 float root_of(const std::array<double, kRoots.size()>& brightness, double wanted) {
@@ -54,27 +45,6 @@ CoatColor::CoatColor(const Scatter& scatter, const Workers& workers) {
     }
   });
   for (int i = 0; i < kColors; ++i) root_[i] = root_of(brightness, kBrightness[i]);
-  add_gains(scatter, workers);
-}
-
-void CoatColor::add_gains(const Scatter& scatter, const Workers& workers) {
-  std::array<double, kGains.size() + 1> brightness;
-  const auto of = [&](float t) {
-    return tangle_reflectance([&](const TangleHit& hit, const V3f& u) { return scatter(t, hit, u); }, kWalks);
-  };
-  brightness[0] = of(0);
-  if (brightness[0] >= kLossless) return;
-  workers.for_each(kGains.size(), 1, [&](const WorkRange& range) {
-    for (size_t i = range.begin; i < range.end; ++i) brightness[i + 1] = of(-kGains[i] * kGains[i]);
-  });
-  for (int i = 0; i < kColors; ++i) {
-    const double wanted = kRegained * kBrightness[i];
-    for (size_t k = 0; k < kGains.size() && brightness[k] < wanted; ++k) {
-      const float before = k > 0 ? kGains[k - 1] : 0;
-      const double share = std::log(wanted / brightness[k]) / std::log(brightness[k + 1] / brightness[k]);
-      root_[i] = -(before + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (kGains[k] - before));
-    }
-  }
 }
 
 Rgb CoatColor::operator()(const Rgb& color) const {
@@ -85,7 +55,7 @@ Rgb CoatColor::operator()(const Rgb& color) const {
     while (i + 2 < kColors && wanted < kColor[i + 1]) ++i;
     const float share = std::log(wanted / kColor[i]) / std::log(kColor[i + 1] / kColor[i]);
     const float root = root_[i] + share * (root_[i + 1] - root_[i]);
-    t[c] = root * std::abs(root);
+    t[c] = root * root;
   }
   return t;
 }

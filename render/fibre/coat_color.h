@@ -25,9 +25,8 @@ class CoatColor {
   using Scatter = std::function<std::optional<FibreSample>(float, const TangleHit&, const V3f&)>;
   CoatColor(const Scatter& scatter, const Workers& workers);
 
-  /// Returns the absorption t of each channel. It is negative, a gain, where a fibre without absorption is
-  /// too dark because its model loses light; the medium then is 3 % darker than the reference, and up to a
-  /// quarter in the lightest colours.
+  /// Returns the absorption t of each channel. It is 0 where a fibre without absorption is still too dark
+  /// because its model loses light.
   Rgb operator()(const Rgb& color) const;
 
   static constexpr int kColors = 11;
@@ -36,8 +35,6 @@ class CoatColor {
   static const std::array<float, kColors> kColor, kBrightness;
 
  private:
-  void add_gains(const Scatter& scatter, const Workers& workers);
-
   std::array<float, kColors> root_{};  // square root of t for each colour
 };
 

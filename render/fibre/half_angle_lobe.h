@@ -71,7 +71,6 @@ class HalfAngleLobe {
   static constexpr float kMinShare = 0.02f;  // min energy, relative to the largest
   static constexpr float kMinMass = 1e-5f;   // with less mass, floats are too inaccurate in the tail
 
-  static float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
   /// Ratio of the energy at an end to the energy beside the end: 0 at a pole that truncates the Gaussian, 1
   /// where the Gaussian is not truncated. `at`: position of the pole, in deviations from the centre.
   static float left_at_end(float at) { return std::clamp(0.5f * (at - 1), 0.0f, 1.0f); }

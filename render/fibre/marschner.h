@@ -25,12 +25,18 @@ class MarschnerMaterial {
 
  private:
   friend class MarschnerBsdf;
-  static constexpr int kLobes = 3;
+  static constexpr int kLobes = 3, kAngles = 65;
+  /// Factor of all lobes at theta_o: 1 as published, 1/2 for the halved variant.
+  float scale(float theta_o) const;
+  /// Mean over h of the light that a fibre without absorption scatters, as published.
+  float white_albedo(float theta_o) const;
+
   float eta_;
-  float scale_;  // factor of all lobes: 1 as published, 1/2 for the halved variant
+  bool is_published_;
   std::optional<Rgb> absorption_;
   std::array<float, kLobes> alpha_, beta_;  // shift and width of each lobe in theta_h; radians
   WrappedGaussian azimuthal_;
+  std::array<float, kAngles> scale_;  // at angles in equal steps from -pi/2 to pi/2
 };
 
 /// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h. M_p
@@ -39,7 +45,9 @@ class MarschnerMaterial {
 /// is 2 cos(gamma_t) / cos(theta_t); the formula printed in the paper is known to be wrong.
 ///
 /// S reflects nearly twice the incoming energy, because unit area in theta_h is area 2 in theta_i. The
-/// published variant uses S, the halved variant S / 2. Keeps a reference to `material`.
+/// published variant uses S, the halved variant S / 2. The conserving variant, ours, divides S by the energy
+/// that a fibre without absorption scatters at theta_o, averaged over h. So white fibres keep all light; like
+/// [Chiang16] and [dEon11], this variant is not reciprocal. Keeps a reference to `material`.
 class MarschnerBsdf {
  public:
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
@@ -61,7 +69,6 @@ class MarschnerBsdf {
     float cos_d;
   };
   Crossing crossing(float theta_d) const;
-  float energy(int lobe, float theta_h) const;
   /// Fraction of samples that are uniform over the sphere: 1 % normally, 1 when every lobe is black.
   float uniform_share() const;
 
@@ -69,7 +76,7 @@ class MarschnerBsdf {
   FibreFrame frame_;
   float h_;
   Rgb sigma_;
-  float theta_o_;
+  float theta_o_, scale_;
   std::array<HalfAngleLobe, kLobes> lobes_;
   std::array<float, kLobes> choice_;
 };

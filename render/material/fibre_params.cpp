@@ -54,8 +54,7 @@ const Schema<MarschnerParams>& MarschnerParams::schema() {
     using P = MarschnerParams;
     Schema<P> s("marschner",
                 "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. The published model "
-                "returns nearly twice the light it receives, so that multiple scattering in light-coloured "
-                "fur diverges; see `variant`.");
+                "returns nearly twice the light it receives; by default, `variant` corrects this.");
     s.set_example(R"(materials:
   fur: {model: marschner, eumelanin: 1.3})");
     add_color_keys(s, kColorHelp);
@@ -80,7 +79,8 @@ const Schema<MarschnerParams>& MarschnerParams::schema() {
          .max = 60});
     s.key("variant", &P::variant,
           {.help = "`published`: the lobes as published; `halved`: half as high, which nearly restores "
-                   "energy conservation"});
+                   "energy conservation; `conserving`: scaled at each inclination so that a fibre without "
+                   "absorption scatters all light"});
     return s;
   }();
   return table;

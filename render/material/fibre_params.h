@@ -88,11 +88,12 @@ struct AbsorptionParams {
   std::optional<float> pheomelanin;      ///< concentration of the red and yellow pigment
 };
 
-/// Height of the lobes: the published height, or half of it, which roughly conserves energy.
-enum class MarschnerVariant { kPublished, kHalved };
+/// Height of the lobes: the published height; half of it, which roughly conserves energy; or a height at which
+/// a fibre without absorption scatters all light, at every inclination.
+enum class MarschnerVariant { kPublished, kHalved, kConserving };
 template <>
 struct EnumNames<MarschnerVariant> {
-  static constexpr const char* names[] = {"published", "halved"};
+  static constexpr const char* names[] = {"published", "halved", "conserving"};
 };
 
 struct MarschnerParams : FibreParams, AbsorptionParams {
@@ -102,7 +103,7 @@ struct MarschnerParams : FibreParams, AbsorptionParams {
   float alpha = -7.5f;         ///< shift of the R lobe, degrees
   float beta = 7.5f;           ///< width of the R lobe, degrees
   float azimuthal_width = 15;  ///< degrees
-  MarschnerVariant variant = MarschnerVariant::kHalved;
+  MarschnerVariant variant = MarschnerVariant::kConserving;
   static const Schema<MarschnerParams>& schema();
 };
 

@@ -85,7 +85,9 @@ TEST(FibreWeight, OfMarschnerAveragesToTheIntegral) {
 /// A halved lobe loses energy, so a tangle of such fibres is dark; single samples of great weight make walks
 /// that look as if they gained without end, and then all pale colours get too much absorption.
 TEST(FibreWeight, ATangleOfHalvedMarschnerHasAnEnd) {
-  const MarschnerMaterial material{MarschnerParams{}};
+  MarschnerParams halved;
+  halved.variant = MarschnerVariant::kHalved;
+  const MarschnerMaterial material(halved);
   const auto brightness = [&](float absorption) {
     return tangle_reflectance(
         [&](const TangleHit& hit, const V3f& u) {
