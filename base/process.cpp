@@ -339,8 +339,9 @@ ProcessResult run_process(const ProcessSetup& setup, const ProcessLimits& limits
     return open;
   };
   for (;;) {
-    const bool open = receive_some(kPoll_s);
-    if (const auto end = process.wait(open ? 0 : kPoll_s)) {
+    const double poll_s = told ? kPoll_s : std::clamp(limits.seconds - seconds_since(began), 0.0, kPoll_s);
+    const bool open = receive_some(poll_s);
+    if (const auto end = process.wait(open ? 0 : poll_s)) {
       result.end = *end;
       break;
     }

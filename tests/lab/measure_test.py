@@ -231,7 +231,8 @@ class Measure(unittest.TestCase):
         self.assertEqual({row["status"] for row in self.read("out")["rows"]}, {"refused"})
 
     def test_a_run_that_takes_too_long_is_shown_as_such(self):
-        self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "3", "--quiet", "--time-limit", "0.001", code=1)
+        self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "3", "--quiet", "--time-limit", "0.1",
+                     "--set", "render.samples=1000000", code=1)
         rows = self.read("out")["rows"]
         self.assertEqual({(row["status"], row["runs"]) for row in rows}, {("time-out", 1)})
 
