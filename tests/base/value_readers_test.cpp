@@ -5,18 +5,21 @@
 
 #include "tests/support/parsed_value.h"
 
-namespace pelage {
+namespace pelage::value_readers_test {
 namespace {
 
 enum class Shape { kBox, kRoundBox };
 
 }  // namespace
 
+}  // namespace pelage::value_readers_test
+
 template <>
-struct EnumNames<Shape> {
+struct pelage::EnumNames<pelage::value_readers_test::Shape> {
   static constexpr const char* names[] = {"box", "round-box"};
 };
 
+namespace pelage::value_readers_test {
 namespace {
 
 // The one problem of reading a T, or "" when there is none.
@@ -175,4 +178,4 @@ TEST(ValueReaders, EveryProblemOfAListIsReported) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::value_readers_test

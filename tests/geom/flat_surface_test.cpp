@@ -24,7 +24,7 @@ std::shared_ptr<const SurfaceTopology> flat(const ControlMesh& mesh) {
   return SurfaceTopology::create(mesh, SubdivisionScheme::kNone, BoundaryRule::kEdgeAndCorner, "test");
 }
 
-LimitSurface surface_of(const ControlMesh& mesh) { return {flat(mesh), mesh.positions}; }
+LimitSurface flat_surface_of(const ControlMesh& mesh) { return {flat(mesh), mesh.positions}; }
 
 double area_along_z(std::span<const V3f> polygon, std::span<const uint32_t> triangle) {
   const V3f a = polygon[triangle[0]], b = polygon[triangle[1]], c = polygon[triangle[2]];
@@ -105,7 +105,7 @@ TEST(PolygonCut, TakesAnyPolygon) {
 
 TEST(FlatSurface, MeetsTheVerticesOfItsMesh) {
   for (const ControlMesh& mesh : {bumpy_sphere(20), prism_cage(7), torus_cage(6, 5), octahedron_cage()}) {
-    const LimitSurface surface = surface_of(mesh);
+    const LimitSurface surface = flat_surface_of(mesh);
     const SurfaceTopology& topology = surface.topology();
     EXPECT_TRUE(topology.is_triangular());
     EXPECT_EQ(topology.face_count(), mesh.face_vertices.size() - 2 * mesh.face_sizes.size());
@@ -128,7 +128,7 @@ TEST(FlatSurface, MeetsTheVerticesOfItsMesh) {
 
 TEST(FlatSurface, FramesAreSmooth) {
   const ControlMesh mesh = bumpy_sphere(40);
-  const LimitSurface surface = surface_of(mesh);
+  const LimitSurface surface = flat_surface_of(mesh);
   const SurfaceTopology& topology = surface.topology();
   double off = 0, off_flat = 0;
   for (uint32_t face = 0; face < topology.face_count(); ++face) {
@@ -168,7 +168,7 @@ TEST(FlatSurface, FramesAreFiniteWhereThereIsNoNormal) {
   // Both sides of one triangle: normals cancel out.
   const ControlMesh sheet = make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});
   for (const ControlMesh& mesh : {point, line, tiny, sheet}) {
-    const LimitSurface surface = surface_of(mesh);
+    const LimitSurface surface = flat_surface_of(mesh);
     for (uint32_t face = 0; face < surface.topology().face_count(); ++face) {
       for (const float u : {0.0f, 0.3f, 1.0f}) {
         const Frame frame = surface.frame(face, u, 0.2f);
@@ -179,13 +179,14 @@ TEST(FlatSurface, FramesAreFiniteWhereThereIsNoNormal) {
     }
   }
   EXPECT_LT(
-      (surface_of(tiny).frame(0, 0, 0).normal - surface_of(octahedron_cage()).frame(0, 0, 0).normal).length(),
+      (flat_surface_of(tiny).frame(0, 0, 0).normal - flat_surface_of(octahedron_cage()).frame(0, 0, 0).normal)
+          .length(),
       1e-5f);
 }
 
 TEST(FlatSurface, APartIsTheSameBitByBit) {
   const ControlMesh mesh = bumpy_sphere(24);
-  const LimitSurface whole = surface_of(mesh);
+  const LimitSurface whole = flat_surface_of(mesh);
   std::vector<uint32_t> faces;
   for (uint32_t f = 0; f < whole.topology().face_count(); ++f) {
     if (hash64(f) % 5 == 0) faces.push_back(f);
@@ -205,7 +206,7 @@ TEST(FlatSurface, IsItsOwnTessellation) {
   near.position = {0, 0, 1.2f};
   near.focal_pixels = 1e5f;
   for (const ControlMesh& mesh : {bumpy_sphere(12), torus_cage(5, 4)}) {
-    const LimitSurface surface = surface_of(mesh);
+    const LimitSurface surface = flat_surface_of(mesh);
     const SkinMesh skin = tessellate(std::span(&surface, 1), near, {}, Workers(2));
     EXPECT_EQ(skin.triangle_count(), surface.topology().face_count());
     EXPECT_EQ(skin.vertex_count(), mesh.positions.size());
@@ -218,7 +219,7 @@ TEST(FlatSurface, TakesWhatSubdivisionDoesNot) {
   // vertex.
   const ControlMesh book = make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {9, 9, 9}},
                                      {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {1, 0, 2}});
-  const LimitSurface surface = surface_of(book);
+  const LimitSurface surface = flat_surface_of(book);
   EXPECT_EQ(surface.topology().neighbour(0, 0), -1);
   const SkinMesh skin = tessellate(std::span(&surface, 1), View(), {}, Workers(1));
   EXPECT_EQ(skin.triangle_count(), 4u);
@@ -229,14 +230,14 @@ TEST(FlatSurface, TakesWhatSubdivisionDoesNot) {
     hub.face_sizes.push_back(3);
     hub.face_vertices.insert(hub.face_vertices.end(), {0, 1 + i, 1 + (i + 1) % 1500});
   }
-  EXPECT_LT((surface_of(hub).frame(7, 0, 0).normal - V3f(0, 0, 1)).length(), 1e-4f);
+  EXPECT_LT((flat_surface_of(hub).frame(7, 0, 0).normal - V3f(0, 0, 1)).length(), 1e-4f);
   EXPECT_THROW(flat(make_cage({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}})), Error);
 }
 
 TEST(FlatSurface, HolesAndTextureCoordinatesFollowTheirPolygons) {
   ControlMesh grid = grid_cage(3, 2);
   grid.holes = {1};
-  const LimitSurface surface = surface_of(grid);
+  const LimitSurface surface = flat_surface_of(grid);
   const SurfaceTopology& topology = surface.topology();
   ASSERT_EQ(topology.face_count(), 12u);
   for (uint32_t face = 0; face < 12; ++face) {

@@ -10,7 +10,7 @@
 #include "tests/geom/far_oracle.h"
 #include "tests/geom/surface_cages.h"
 
-namespace pelage {
+namespace pelage::limit_surface_test {
 namespace {
 
 TEST(LimitSurface, EqualsTheLimitOfUniformRefinement) {
@@ -285,4 +285,4 @@ TEST(LimitSurface, APartCostsWhatItsFacesCost) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::limit_surface_test

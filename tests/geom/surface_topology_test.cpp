@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "tests/geom/surface_cages.h"
 
-namespace pelage {
+namespace pelage::surface_topology_test {
 namespace {
 
 TEST(SurfaceTopology, PosesShareIt) {
@@ -183,4 +183,4 @@ TEST(SurfaceTopology, SurvivesAnyCage) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::surface_topology_test

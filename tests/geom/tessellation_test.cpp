@@ -8,17 +8,11 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "geom/io/obj_file.h"
-#include "tests/geom/cages.h"
+#include "tests/geom/surface_cages.h"
 #include "tests/support/data.h"
 
 namespace pelage {
 namespace {
-
-LimitSurface surface_of(const ControlMesh& cage,
-                        SubdivisionScheme scheme = SubdivisionScheme::kCatmullClark) {
-  return LimitSurface(SurfaceTopology::create(cage, scheme, BoundaryRule::kEdgeAndCorner, "test"),
-                      cage.positions);
-}
 
 SkinMesh tessellate_one(const LimitSurface& surface, const View& view, TessellationOptions options = {}) {
   return tessellate(std::span(&surface, 1), view, options, Workers(2));

@@ -88,10 +88,13 @@ class Memory(unittest.TestCase):
         return file
 
     def test_examples(self):
+        """Also that each renders: what is refused renders with more memory."""
         scenes = [path for path in sorted((ROOT / "examples").glob("*.yaml")) if path.name not in SOAKS]
+        small = "image.width=96", "image.height=54", "render.samples=1", "frames=1"
         for path in scenes:
             with self.subTest(scene=path.name):
-                self.render(path, "image.width=96", "image.height=54", "render.samples=1", "frames=1")
+                if self.render(path, *small):
+                    self.assertEqual(self.render(path, *small, limit=1024 * MIB), "")
 
     def test_scenes_that_do_not_fit(self):
         for name, (groom, more) in HOSTILE.items():

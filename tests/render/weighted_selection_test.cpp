@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pelage {
+namespace pelage::weighted_selection_test {
 namespace {
 
 TEST(WeightedSelection, AFewItemsAreAllSelectedOnce) {
@@ -43,4 +43,4 @@ TEST(WeightedSelection, AHeavyItemIsSelectedSeveralTimesAndOneWithoutWeightNever
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::weighted_selection_test

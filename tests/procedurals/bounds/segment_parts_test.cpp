@@ -10,7 +10,7 @@
 #include "geom/curve_bounds.h"
 #include "tests/geom/random_strands.h"
 
-namespace pelage {
+namespace pelage::segment_parts_test {
 namespace {
 
 float surface_area(const Box3f& box) {
@@ -83,7 +83,7 @@ TEST(SegmentParts, OneKeyIsTheExactBoxOfThePart) {
 }
 
 // As interpolated by ray tracing.
-Box3f at_time(const ChunkBounds& bounds, size_t part, float time) {
+Box3f interpolated_box(const ChunkBounds& bounds, size_t part, float time) {
   const Box3f &a = bounds.box(part, 0), &b = bounds.box(part, bounds.keys - 1);
   return {(1 - time) * a.min + time * b.min, (1 - time) * a.max + time * b.max};
 }
@@ -114,7 +114,7 @@ TEST(SegmentParts, HoldTheirSegmentsAtEveryTime) {
       for (int step = 0; step <= 60; ++step) {
         const float time = static_cast<float>(step) / 60;
         for (size_t p = 0; p < parts.part_count(); ++p) {
-          expect_held(at_time(bounds, p, time), parts.part(p), strands, time);
+          expect_held(interpolated_box(bounds, p, time), parts.part(p), strands, time);
         }
         for (size_t c = 0; c < parts.cell_count(); ++c) {
           const Box3f box = bounds.cell_bounds.box(c, time);
@@ -175,4 +175,4 @@ TEST(InterpolateBoxes, WidenOnlyWhereAKeyBetweenSticksOut) {
 }
 
 }  // namespace
-}  // namespace pelage
+}  // namespace pelage::segment_parts_test
