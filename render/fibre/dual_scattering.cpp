@@ -71,9 +71,9 @@ FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float s
   FibreValue value = direct;
   for (Rgb& lobes : value.lobes) lobes *= through;
   for (int c = 0; c < 3; ++c) {
-    const float around = kBackwardDensity * stack_backscatter(fibre.forward[c], fibre.backward[c]);
+    const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
     const float crossed = arrives ? std::pow(fibre.forward[c], strands) : 0;
-    const float scattered = std::max(0.0f, crossed - through) * kForwardDensity;
+    const float scattered = std::max(0.0f, crossed - through);
     value[LobeGroup::kDiffuse][c] +=
         through * around * back_now +
         scattered * (fibre.forward[c] * on + fibre.backward[c] * returned + around * back_spread);

@@ -13,8 +13,9 @@ namespace pelage {
 ///
 /// Deviations from [Zinke08]: the light scattered back is the whole series of reflections of a semi-infinite
 /// stack of fibres instead of its first two terms, because pale fur loses 45 % of it otherwise; the lobes are
-/// normalised over the sphere (LongitudinalLobe), so that no light is gained; and the strands between have
-/// the colour of the point.
+/// normalised over the sphere (LongitudinalLobe), so that no light is gained; there are no density
+/// factors, because rays count the strands that are there; and the strands between have the colour of the
+/// point.
 class DualScattering {
  public:
   DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo, const Rgb& color)
@@ -25,12 +26,8 @@ class DualScattering {
   /// `direct`. Everything else is in the group `diffuse`. The density remains that of `direct`.
   FibreValue eval(const FibreValue& direct, const V3f& wi, float strands, float through) const;
 
-  /// Returns the number of strands that leave less than 1 % of the light of any direction.
+  /// Returns the number of strands that leave less than 3 % of the light of any direction.
   float max_strands() const;
-
-  /// Density factors [Zinke08, section 4.1.1]: part of the strands between that scatter light to the point,
-  /// and part of the surroundings of the point that scatters light back.
-  static constexpr float kForwardDensity = 0.7f, kBackwardDensity = 0.7f;
 
  private:
   const FibreAverageTable* table_;
