@@ -83,9 +83,9 @@ struct RenderParams {
   CurveShape curves = CurveShape::kFlat;
   int samples = 64;  ///< count per pixel; with adaptive sampling, the max count
   std::optional<AdaptiveParams> adaptive;
-  float time_limit = 0;                  ///< seconds; 0: no limit
-  int light_samples = 1;                 ///< shadow rays per vertex of a path
-  int bounces = 4;                       ///< max scatterings after the first; 0: direct light only
+  float time_limit = 0;   ///< seconds; 0: no limit
+  int light_samples = 1;  ///< shadow rays per vertex of a path
+  int bounces = 4;        ///< max scatterings after the first; 0: direct light only
   IndirectLight indirect = IndirectLight::kPath;
   std::optional<SkinBallUse> skin_ball;  ///< empty: see ball_use()
   float clamp_indirect = 0;              ///< max luminance of the indirect light of one path; 0: no limit

@@ -13,8 +13,9 @@ namespace {
 constexpr float kDegree = kPi / 180;
 
 TEST(SamplerVariance, OfAnEvenSkyIsThatOfTheDensities) {
-  // The integrals of sqrt(1 - u^2)^2 / density, by any width of the shell: exact for the uniform sampler, 32 / (3
-  // pi^2) - 1, and by quadrature for the tent. The tolerance is five standard errors of the mean of squares.
+  // The integrals of sqrt(1 - u^2)^2 / density, by any width of the shell: exact for the uniform sampler, 32
+  // / (3 pi^2) - 1, and by quadrature for the tent. The tolerance is five standard errors of the mean of
+  // squares.
   for (const float width : {2.0f, 40.0f}) {
     const TechniqueVariance v = technique_variance({width, 0}, 30 * kDegree, kPi, 1 << 15);
     EXPECT_NEAR(v.shell[0], 0, 1e-5);
