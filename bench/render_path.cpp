@@ -39,6 +39,9 @@ class Recorder final : public Accel {
     rays_.push_back({ray, true});
     return accel_.transmittance(ray, thread);
   }
+  StrandCount strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const override {
+    return accel_.strands_crossed(ray, max, thread);
+  }
   bool opaque() const override { return accel_.opaque(); }
   Box3f bounds() const override { return accel_.bounds(); }
   const std::vector<RecordedRay>& rays() const { return rays_; }

@@ -57,8 +57,8 @@ void add_experiment_flags(CLI::App& measure, LabOptions& options) {
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "
           "beside path (of splatted, adaptive, gather, visibility, reuse, spacing, skin_spacing, cells, "
-          "light_rays, paths, cache, no_cache, drawn, screen_door, gather_screen_door, skin_ball, together "
-          "and others: see docs/MEASURE.md)")
+          "light_rays, paths, cache, no_cache, drawn, screen_door, gather_screen_door, dual, skin_ball, "
+          "together and others: see docs/MEASURE.md)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");

@@ -189,6 +189,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   const int width = window.film.width(), height = window.film.height();
   require_memory(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
   FrameResult result{Film(width, height, layers, job.ledger), window};
+  result.dual = used.render.indirect == IndirectLight::kDual;
   const MemoryCharge counts =
       reserve(job.ledger, MemoryTag::kFilm, SamplePasses::bytes_needed(used.render, int64_t{width} * height),
               "the sample counts of adaptive sampling");

@@ -62,6 +62,7 @@ class EditedText {
 
  private:
   void replace(const ValueEdit& edit, Value& value);
+  void remove(const ValueEdit& edit, Value& block);
   void add(const ValueEdit& edit, Value& block);
   size_t byte_of(const SourcePosition& position) const;
   // Whether an unquoted scalar is at its position as it was read.
@@ -106,7 +107,12 @@ void EditedText::apply(const ValueEdit& edit) {
     if (!block || !block->is_map() || block->entries().empty())
       refuse({file_, 0, 0}, "has no block `" + joined(edit.path, i + 1) + "`");
   }
-  if (Value* value = block->find(edit.path.back())) {
+  Value* value = block->find(edit.path.back());
+  if (edit.removed) {
+    remove(edit, *block);
+  } else if (value && !edit.block.empty()) {
+    refuse(value->position(), "`" + joined(edit.path) + "` exists already");
+  } else if (value) {
     replace(edit, *value);
   } else {
     add(edit, *block);
@@ -139,12 +145,72 @@ void EditedText::replace(const ValueEdit& edit, Value& value) {
   set_text(std::move(changed));
 }
 
+/// Returns the end of a value in brackets that begins at a byte: the comma or bracket behind it.
+size_t end_in_brackets(const std::string& text, size_t at) {
+  int depth = 0;
+  for (char quote = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != 0) {
+      if (c == '\\' && quote == '"')
+        ++at;
+      else if (c == quote)
+        quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '{' || c == '[') {
+      ++depth;
+    } else if (c == '}' || c == ']' || c == ',') {
+      if (depth == 0) return at;
+      if (c != ',') --depth;
+    }
+  }
+  return at;
+}
+
+/// Removes the bytes of a key and its value; set_text() finds out if they were others.
+void EditedText::remove(const ValueEdit& edit, Value& block) {
+  std::vector<Value::Entry>& entries = block.entries();
+  const auto entry = std::find_if(entries.begin(), entries.end(),
+                                  [&](const Value::Entry& e) { return e.key == edit.path.back(); });
+  if (entry == entries.end()) refuse(block.position(), "has no `" + joined(edit.path) + "`");
+  if (entries.size() == 1)
+    refuse(entry->key_position, "`" + joined(edit.path) + "` is the last one here; remove it by hand");
+  size_t begin = byte_of(entry->key_position), end = 0;
+  if (text_[byte_of(block.position())] == '{') {
+    end = end_in_brackets(text_, begin);
+    if (end < text_.size() && text_[end] == ',') {
+      end = std::min(text_.find_first_not_of(" ", end + 1), text_.size());
+    } else {
+      begin = text_.rfind(',', begin);
+      if (begin == std::string::npos) refuse(entry->key_position, "cannot be removed; edit the file by hand");
+    }
+  } else {
+    // Whole lines: up to the first line that is not deeper, except comments and empty lines in front of it.
+    const auto column = static_cast<size_t>(entry->key_position.column - 1);
+    begin -= std::min(begin, column);
+    end = std::min(text_.find('\n', begin), text_.size() - 1) + 1;
+    for (size_t line = end; line < text_.size();) {
+      const size_t next = std::min(text_.find('\n', line), text_.size() - 1) + 1;
+      const size_t first = std::min(text_.find_first_not_of(" \r\n", line), next);
+      const bool is_empty = first >= next || text_[first] == '#';
+      if (!is_empty && first - line <= column) break;
+      line = next;
+      if (!is_empty) end = next;
+    }
+  }
+  entries.erase(entry);
+  splice(begin, end - begin, "");
+}
+
 void EditedText::add(const ValueEdit& edit, Value& block) {
   std::vector<Value::Entry>& entries = block.entries();
-  const std::string text = edit.path.back() + ": " + numbers_text(edit.numbers);
+  const std::string new_value = edit.block.empty() ? numbers_text(edit.numbers) : edit.block;
+  const std::string text = key_text(edit.path.back()) + ": " + new_value;
   const bool in_brackets = text_[byte_of(block.position())] == '{';
-  const auto last = std::find_if(entries.rbegin(), entries.rend(),
-                                 [this](const Value::Entry& entry) { return is_plain(entry.value); });
+  const auto last = edit.block.empty()
+                        ? std::find_if(entries.rbegin(), entries.rend(),
+                                       [this](const Value::Entry& entry) { return is_plain(entry.value); })
+                        : entries.rend();
   size_t at = 0;
   std::string inserted;
   auto place = entries.begin();
@@ -160,8 +226,7 @@ void EditedText::add(const ValueEdit& edit, Value& block) {
   const std::string line_end = text_.find("\r\n") == std::string::npos ? "\n" : "\r\n";
   const std::string separator = in_brackets ? ", " : line_end + std::string(column, ' ');
   inserted = last != entries.rend() ? separator + text : text + separator;
-  Value value = edit.numbers.size() == 1 ? Value::scalar({}, numbers_text(edit.numbers))
-                                         : read_text(numbers_text(edit.numbers), file_);
+  Value value = edit.numbers.size() == 1 ? Value::scalar({}, new_value) : read_text(new_value, file_);
   entries.insert(place, {edit.path.back(), {}, std::move(value)});
   splice(at, 0, inserted);
 }
@@ -208,8 +273,12 @@ std::string values_text(const std::vector<ValueEdit>& edits) {
     while (same < open.size() && same + 1 < edit.path.size() && open[same] == edit.path[same]) ++same;
     for (size_t i = same; i < edit.path.size(); ++i) {
       const bool is_last = i + 1 == edit.path.size();
-      text += std::string(2 * i, ' ') + key_text(edit.path[i]) + ":" +
-              (is_last ? " " + numbers_text(edit.numbers) : "") + "\n";
+      const std::string value = edit.block.empty() ? numbers_text(edit.numbers) : edit.block;
+      text += std::string(2 * i, ' ');
+      if (is_last && edit.removed)
+        text += "# removed: " + key_text(edit.path[i]) + "\n";
+      else
+        text += key_text(edit.path[i]) + ":" + (is_last ? " " + value : "") + "\n";
     }
     open.assign(edit.path.begin(), edit.path.end() - 1);
   }

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,8 @@
 #include "base/nearest_name.h"
 #include "base/vector.h"
 #include "scene/value_edits.h"
+#include "view/command_values.h"
+#include "view/light_changes.h"
 #include "view/scene_edit.h"
 #include "world/frames.h"
 #include "world/scene_schema.h"
@@ -68,53 +71,6 @@ std::vector<ValueEdit> light_edits(const SceneDescription& scene, const std::vec
     }
   }
   return edits;
-}
-
-// Readers for the parameters of commands. They throw Error (kArguments) with one line.
-
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
-
-/// Checks that a value is an object whose keys are all among `keys`. `name`: of the value, for messages.
-void check_object(const nlohmann::json& value, const std::string& name, std::span<const std::string> keys) {
-  if (!value.is_object()) refuse(name + ": expected an object");
-  for (const auto& [key, unused] : value.items()) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      refuse(name + ": unknown key " + quote(key) + suggest(key, keys));
-  }
-}
-
-/// Reads a text as an object whose keys are all among `keys`.
-nlohmann::json read_object(const std::string& text, std::span<const std::string> keys) {
-  nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
-  if (value.is_discarded()) refuse("the request is not JSON");
-  check_object(value, "the request", keys);
-  return value;
-}
-
-/// Returns the numbers of a list of `count` finite numbers from `min` to `max`.
-std::vector<double> read_numbers(const nlohmann::json& value, const std::string& name, size_t count,
-                                 double min, double max) {
-  std::vector<double> numbers;
-  if (value.is_array()) {
-    for (const nlohmann::json& item : value) {
-      const double number = item.is_number() ? item.get<double>() : std::nan("");
-      if (number >= min && number <= max) numbers.push_back(number);
-    }
-  }
-  if (numbers.size() != count || value.size() != count)
-    refuse(fmt::format("{}: expected {} from {} to {}", name,
-                       count == 1 ? "a number" : fmt::format("{} numbers", count), min, max));
-  return numbers;
-}
-
-/// Returns a text that is one of `choices`.
-std::string read_choice(const nlohmann::json& object, const std::string& key,
-                        std::span<const std::string> choices) {
-  const auto found = object.find(key);
-  const std::string text = found != object.end() && found->is_string() ? found->get<std::string>() : "";
-  if (std::find(choices.begin(), choices.end(), text) == choices.end())
-    refuse(key + ": unknown value " + quote(text) + suggest(text, choices));
-  return text;
 }
 
 using nlohmann::json;
@@ -218,7 +174,10 @@ json run_lights(const Context& context, const std::string& body) {
   const auto edit = request.find("edit");
   const int64_t shown = edit != request.end() && edit->is_number_integer() ? edit->get<int64_t>() : -1;
   const ViewStatus status = context.state.status();
-  const SceneDescription file = load_scene(context.scene, context.overrides);
+  std::vector<Override> overrides = context.overrides;
+  for (Override& override : light_change_overrides(context.state.control().lights()))
+    overrides.push_back(std::move(override));
+  const SceneDescription file = load_scene(context.scene, overrides);
   const auto changed = [&](const LightMix& mix) {
     const std::string part = "lights." + mix.light;
     const SceneParts &now = file.parts, &then = status.edit->scene.parts;
@@ -229,6 +188,96 @@ json run_lights(const Context& context, const std::string& body) {
   const std::vector<ValueEdit> edits = light_edits(status.edit->scene, mixes);
   if (edits.empty()) throw Error(ErrorKind::kArguments, "lights: nothing is changed");
   return values_answer(context, action, edits);
+}
+
+/// Reads new values of a light. `type`: of the light.
+std::map<std::string, std::vector<double>> read_light_values(const json& request, const std::string& type) {
+  const std::vector<LightKey>& known = light_keys(type);
+  const auto values = request.find("values");
+  std::map<std::string, std::vector<double>> read;
+  if (values == request.end()) return read;
+  std::vector<std::string> names;
+  for (const LightKey& key : known) names.push_back(key.name);
+  check_object(*values, "values of a light of type " + type, names);
+  for (const LightKey& key : known) {
+    if (const auto value = values->find(key.name); value != values->end())
+      read[key.name] = read_numbers(*value, key.name, key.numbers, key.min, key.max);
+  }
+  return read;
+}
+
+/// Returns a light of the shown picture by the key `light` of a request.
+ViewLight read_light(const json& request, const ViewStatus& status) {
+  std::vector<std::string> names;
+  for (const ViewLight& light : status.lights) names.push_back(light.name);
+  const std::string name = read_choice(request, "light", names);
+  return *std::find_if(status.lights.begin(), status.lights.end(),
+                       [&](const ViewLight& light) { return light.name == name; });
+}
+
+/// Returns a name that no light has.
+std::string new_light_name(const std::string& type, const ViewStatus& status, const LightChanges& changes) {
+  const auto is_taken = [&](const std::string& name) {
+    return changes.contains(name) || std::any_of(status.lights.begin(), status.lights.end(),
+                                                 [&](const ViewLight& light) { return light.name == name; });
+  };
+  std::string name = type;
+  for (int number = 2; is_taken(name); ++number) name = fmt::format("{}_{}", type, number);
+  return name;
+}
+
+json run_rig(const Context& context, const std::string& body) {
+  const std::array<std::string, 4> keys{"action", "light", "type", "values"};
+  const std::array<std::string, 6> actions{"change", "add", "remove", "reset", "text", "write"};
+  const json request = read_object(body, keys);
+  const std::string action = read_choice(request, "action", actions);
+  ViewControl& control = context.state.control();
+  const ViewStatus status = context.state.status();
+  if (action == "change") {
+    const ViewLight light = read_light(request, status);
+    const auto values = read_light_values(request, light.type);
+    control.change_lights([&](LightChanges& changes) {
+      for (const auto& [key, numbers] : values) changes[light.name].values[key] = numbers;
+    });
+    return json::object();
+  }
+  if (action == "add") {
+    const auto given = request.find("type");
+    const std::string type =
+        given != request.end() && given->is_string() ? given->get<std::string>() : std::string();
+    const auto values = read_light_values(request, type);
+    if (light_keys(type).empty())
+      refuse_command("a light of type " + type + " has no place to drag; add it by hand");
+    std::string name;
+    control.change_lights([&](LightChanges& changes) {
+      constexpr size_t kMostChanges = 10'000;
+      if (changes.size() >= kMostChanges)
+        refuse_command("too many changes; write them into the scene file first");
+      name = new_light_name(type, status, changes);
+      changes[name] = {type, false, values};
+    });
+    return {{"light", name}};
+  }
+  if (action == "remove") {
+    const std::string name = read_light(request, status).name;
+    control.change_lights([&](LightChanges& changes) {
+      const bool is_new = changes.contains(name) && !changes[name].added_type.empty();
+      if (is_new)
+        changes.erase(name);
+      else
+        changes[name] = {"", true, {}};
+    });
+    return json::object();
+  }
+  if (action == "reset") {
+    control.change_lights([](LightChanges& changes) { changes.clear(); });
+    return json::object();
+  }
+  const LightChanges changes = control.lights();
+  if (changes.empty()) refuse_command("the lights are those of the scene: nothing to write");
+  json answer = values_answer(context, action, light_change_edits(changes));
+  if (action == "write") control.end_lights(changes);
+  return answer;
 }
 
 json run_region(const Context& context, const std::string& body) {
@@ -265,14 +314,22 @@ json run_frame(const Context& context, const std::string& body) {
   return json::object();
 }
 
+json run_preview(const Context& context, const std::string& body) {
+  const std::array<std::string, 1> keys{"dual"};
+  const json request = read_object(body, keys);
+  const auto dual = request.find("dual");
+  if (dual == request.end() || !dual->is_boolean()) refuse_command("dual: expected true or false");
+  context.state.control().set_dual(dual->get<bool>());
+  return json::object();
+}
+
 struct Command {
   std::string_view name;
   json (*run)(const Context&, const std::string& body);
 };
-constexpr Command kCommands[] = {{"camera.json", run_camera},
-                                 {"frame.json", run_frame},
-                                 {"lights.json", run_lights},
-                                 {"region.json", run_region}};
+constexpr Command kCommands[] = {{"camera.json", run_camera}, {"frame.json", run_frame},
+                                 {"lights.json", run_lights}, {"preview.json", run_preview},
+                                 {"region.json", run_region}, {"rig.json", run_rig}};
 
 const Command* find_command(std::string_view name) {
   const auto* found = std::find_if(std::begin(kCommands), std::end(kCommands),

@@ -23,7 +23,7 @@ class SceneCommands {
       : scene_(std::move(scene)), overrides_(std::move(overrides)), state_(state), may_write_(may_write) {}
 
   /// Returns whether there is a command of a name: "camera.json", "frame.json", "lights.json",
-  /// "region.json".
+  /// "preview.json", "region.json", "rig.json".
   static bool exists(std::string_view name);
   /// Runs a command. `body`: its parameters, as JSON. Mistakes become answers with an error.
   CommandAnswer run(std::string_view name, const std::string& body) const;

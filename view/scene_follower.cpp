@@ -97,13 +97,46 @@ SceneDescription SceneFollower::load_shown() {
     status.frame = frame;
     status.frames = std::move(frames);
   });
+  lights_ = shown_lights(scene);
   std::vector<Override> chosen = overrides_;
+  for (Override& override : light_change_overrides(lights_)) chosen.push_back(std::move(override));
   if (frame_) chosen.push_back({"frames", std::to_string(frame)});
   if (camera_) {
     for (Override& override : camera_overrides(*camera_)) chosen.push_back(std::move(override));
     if (framed) chosen.push_back({"camera.frame", "null"});
   }
-  return camera_ || frame_ ? load_scene(path_, chosen) : std::move(scene);
+  dual_ = state_.control().dual();
+  if (dual_) {
+    chosen.push_back({"render.integrator", "path"});
+    chosen.push_back({"render.indirect", "dual"});
+  }
+  return camera_ || frame_ || dual_ || !lights_.empty() ? load_scene(path_, chosen) : std::move(scene);
+}
+
+/// Returns the changes of lights that still apply: not those of lights that the scene file no longer has, or
+/// that were changed in the file since.
+LightChanges SceneFollower::shown_lights(const SceneDescription& scene) {
+  SceneParts own;
+  for (const auto& light : scene.lights.items) {
+    const std::string part = "lights." + light.name;
+    if (const auto found = scene.parts.find(part); found != scene.parts.end()) own.insert(*found);
+  }
+  const auto is_old = [&](const std::string& name, const LightChange& change) {
+    const std::string part = "lights." + name;
+    const auto now = own.find(part), then = own_lights_.find(part);
+    if (!change.added_type.empty()) return now != own.end();
+    return now == own.end() || (then != own_lights_.end() && then->second != now->second);
+  };
+  LightChanges lights = state_.control().lights();
+  const bool changed =
+      std::erase_if(lights, [&](const auto& item) { return is_old(item.first, item.second); }) > 0;
+  if (changed) {
+    state_.control().change_lights([&](LightChanges& all) {
+      std::erase_if(all, [&](const auto& item) { return is_old(item.first, item.second); });
+    });
+  }
+  own_lights_ = std::move(own);
+  return lights;
 }
 
 std::shared_ptr<const SceneEdit> SceneFollower::read() {
@@ -114,7 +147,10 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   SceneDescription scene = load_shown();
   scene.growth_cache = growth_cache_;
   FileStamps stamps = stamps_of(followed_files(scene));
-  state_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
+  state_.update([&](ViewStatus& status) {
+    status.camera = camera_of(scene, camera_.has_value());
+    status.lights = view_lights(scene, scene.frames.frames.front(), lights_);
+  });
   for (auto& [file, stamp] : stamps) {
     if (const auto known = before.find(file); known != before.end()) stamp = known->second;
   }
@@ -129,7 +165,8 @@ void SceneFollower::run() {
     // A file that an include names and that does not exist yet is not among files_.
     const bool broken = !state_.status().scene_error.empty();
     const ViewControl& control = state_.control();
-    const bool chosen = control.camera() != camera_ || control.frame() != frame_;
+    const bool chosen = control.camera() != camera_ || control.frame() != frame_ ||
+                        control.lights() != lights_ || control.dual() != dual_;
     if (changed || broken || chosen || stamps_of(files_) != stamps_) read_again();
   }
 }

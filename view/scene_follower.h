@@ -33,7 +33,8 @@ class SceneFollower {
   void wait_for_quiet();
   void read_again();
   std::shared_ptr<const SceneEdit> read();
-  /// Loads the scene with the camera and the frame that clients have chosen.
+  LightChanges shown_lights(const SceneDescription& scene);
+  /// Loads the scene with the camera, the frame and the lights that clients have chosen.
   SceneDescription load_shown();
 
   const std::filesystem::path path_;
@@ -47,7 +48,10 @@ class SceneFollower {
   std::shared_ptr<const SceneEdit> last_;  // submitted last
   std::optional<CameraMove> camera_;       // of last_, like the next one
   std::optional<int> frame_;
+  LightChanges lights_;
+  bool dual_ = false;
   SceneParts own_camera_;  // parts of the scene's own camera
+  SceneParts own_lights_;  // of its own lights
   std::atomic<bool> stopped_{false};
   std::thread thread_;  // the last member: it uses the others
 };

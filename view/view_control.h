@@ -12,6 +12,7 @@
 #include "base/vector.h"
 #include "image/exr.h"
 #include "scene/value_edits.h"
+#include "view/light_changes.h"
 
 namespace pelage {
 
@@ -47,6 +48,33 @@ class ViewControl {
     if (changed_) changed_();
   }
 
+  /// Returns whether many bounces are estimated by dual scattering, whatever the scene says.
+  bool dual() const { return locked(dual_); }
+  void set_dual(bool dual) {
+    const std::lock_guard lock(mutex_);
+    dual_ = dual;
+    if (changed_) changed_();
+  }
+
+  /// Returns what clients have changed about the lights of the scene.
+  LightChanges lights() const { return locked(lights_); }
+  /// Calls `change(lights())` while no other thread sees them.
+  template <class Change>
+  void change_lights(const Change& change) {
+    const std::lock_guard lock(mutex_);
+    change(lights_);
+    if (changed_) changed_();
+  }
+  /// Ends changes, unless newer ones have replaced them.
+  void end_lights(const LightChanges& ended) {
+    change_lights([&](LightChanges& lights) {
+      for (const auto& [name, change] : ended) {
+        if (const auto found = lights.find(name); found != lights.end() && found->second == change)
+          lights.erase(found);
+      }
+    });
+  }
+
   /// Ends the choice of a frame, unless a newer choice has replaced it.
   void end_frame(int frame) {
     if (this->frame() == frame) set_frame({});
@@ -71,7 +99,8 @@ class ViewControl {
   /// Returns how often the region was set.
   uint32_t region_version() const { return region_version_; }
 
-  /// Calls `changed` after each change of the camera or the frame. An empty function ends these calls.
+  /// Calls `changed` after each change of the camera, the frame, the lights or dual(). An empty function ends
+  /// these calls.
   void on_change(std::function<void()> changed) {
     const std::lock_guard lock(mutex_);
     changed_ = std::move(changed);
@@ -87,6 +116,8 @@ class ViewControl {
   mutable std::mutex mutex_;  // guards all
   std::optional<CameraMove> camera_;
   std::optional<int> frame_;
+  LightChanges lights_;
+  bool dual_ = false;
   std::optional<PixelBox> region_;
   std::atomic<uint32_t> region_version_{0};
   std::function<void()> changed_;

@@ -43,6 +43,7 @@ struct ViewStatus {
   int frame = 1;                          ///< the frame that is shown
   std::vector<int> frames;                ///< the first 10,000 frames of the scene
   ViewCamera camera;
+  std::vector<ViewLight> lights;    ///< of the shown scene, with what clients have changed
   std::string camera_note;          ///< why the camera is no longer the one that a client moved; may be empty
   std::vector<std::string> layers;  ///< names of all layers of the picture
   std::vector<std::string> warnings;  ///< the last few warnings

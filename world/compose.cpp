@@ -142,6 +142,7 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   header.meters_per_unit = scene.units.meters_per_unit;
   header.seed = scene.render.seed;
   if (scene.render.adaptive) header.adaptive = "two-stage";
+  header.dual = scene.render.indirect == IndirectLight::kDual;
   header.program_version = version();
   header.instruction_set = instruction_set();
   header.scene_hash = scene.hash;

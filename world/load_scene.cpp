@@ -227,6 +227,10 @@ void check_event_layers(const SceneDescription& scene, const Value& document, Pr
 
 void check_gather(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (scene.render.integrator != Integrator::kGather) return;
+  if (scene.render.indirect == IndirectLight::kDual) {
+    problems.add(document.find("render")->find("indirect")->position(),
+                 "`indirect: dual` needs `integrator: path`");
+  }
   const bool asks = scene.render.gather.visibility == GatherVisibility::kRaster;
   if (asks && !scene.render.draws_visible()) {
     problems.add(document.find("render")->find("gather")->position(),

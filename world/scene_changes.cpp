@@ -15,11 +15,12 @@
 namespace pelage {
 namespace {
 
-constexpr std::array<std::string_view, 16> kSamplingKeys = {
+constexpr std::array<std::string_view, 17> kSamplingKeys = {
     "image.filter",       "image.filter_samples", "image.light_layers", "image.event_layers",
     "image.noise_layers", "image.lod_layer",      "render.samples",     "render.adaptive",
     "render.time_limit",  "render.light_samples", "render.bounces",     "render.clamp_indirect",
-    "render.seed",        "render.integrator",    "render.skin_ball",   "camera.exposure"};
+    "render.seed",        "render.integrator",    "render.indirect",    "render.skin_ball",
+    "camera.exposure"};
 
 /// Whether a value contains a map with the key `attribute`: geometry checks that strands have the attribute.
 bool names_attribute(const Value& value) {

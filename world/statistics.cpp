@@ -11,6 +11,7 @@ void Statistics::add(const FrameResult& result, double posed_s, double share) {
   samples_per_pixel += result.mean_samples * share;
   noise = std::max(noise, result.noise);
   time_limited |= result.time_limited;
+  dual |= result.dual;
   clamped_fraction = std::max(clamped_fraction, result.clamped_fraction);
 }
 

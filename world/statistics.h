@@ -23,6 +23,7 @@ struct Statistics {
   double samples_per_pixel = 0;  ///< mean over all pixels of all frames
   double noise = 0;              ///< max of frame_noise() over all frames; 0 if the film keeps no moments
   bool time_limited = false;     ///< whether any frame reached render.time_limit
+  bool dual = false;             ///< light of many bounces is an estimate: `indirect: dual`
   double clamped_fraction = 0;   ///< fraction of the indirect light that render.clamp_indirect removed: max
                                  ///< over all frames
 

@@ -90,6 +90,7 @@ std::string statistics_json(const Statistics& s) {
       {"noise", s.noise},
       {"time_limited", s.time_limited},
       {"samples_rejected", s.frames.samples_rejected},
+      {"indirect", s.dual ? "dual" : "path"},
       {"clamped_fraction", s.clamped_fraction},
       {"gather_points", s.frames.gather_points.count},
       {"gather_point_samples", s.frames.gather_points.samples},

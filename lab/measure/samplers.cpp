@@ -7,6 +7,8 @@
 
 #include "image/exr.h"
 #include "lab/measure/experiments.h"
+#include "lab/measure/sampler_variance.h"
+#include "lab/measure/scene_techniques.h"
 #include "lab/pictures/picture_difference.h"
 #include "lab/pictures/picture_error.h"
 #include "lab/runs/outcome_table.h"
@@ -131,6 +133,34 @@ double gain(const std::vector<Row>& rows, const Row& row, double samples) {
   return plain.plain * plain.error.rel_mse / row.error.rel_mse / samples;
 }
 
+/// Adds the variances of samplers and techniques, which are computed here instead of in runs of the program.
+void add_techniques(const SceneDescription& scene, Report& report, Progress& progress) {
+  report.sections.push_back(
+      {"Samplers of the cone shell",
+       {Paragraph{
+            "One fibre of the model cone-shell (variant wigner, seen at 30 degrees), lit by an even light of "
+            "the "
+            "given half angle around the mirror direction. Wigner: the semicircle, which is proportional to "
+            "the "
+            "shell. Tent: the piecewise-linear density that it replaced in the film; its knots were not "
+            "published, this one is fitted to the semicircle. Uniform: in solid angle between the cones. "
+            "MIS: "
+            "one sample of the light and one of the shell, by the power heuristic; their two rays count."},
+        integrand_variances()}});
+  if (progress.cancelled()) return;
+  MemoryLedger ledger;
+  const Workers workers;
+  report.sections.push_back(
+      {"Techniques that find light",
+       {Paragraph{
+            "The scene by `path` with one technique at a time, with at most 32 samples. Rays per sample are "
+            "shadow and indirect rays of the samples that see a surface. Variance x rays says how many rays "
+            "a "
+            "technique needs for the same error. Techniques alone find less light where they cannot find all "
+            "of it: see the means."},
+        scene_techniques(scene, {workers, ledger, progress})}});
+}
+
 }  // namespace
 
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress) {
@@ -140,7 +170,7 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
   measured.outcomes = std::move(sweep.outcomes);
   const std::vector<Outcome>& outcomes = measured.outcomes;
   Report& report = measured.report;
-  report.title = "Adaptive sampling";
+  report.title = "Samplers";
   report.data = outcome_table(outcomes);
   const auto add = [&](const char* key, const char* title, Quantity quantity, const auto& value) {
     add_column(report.data, {key, title, quantity}, outcomes, [&](const Outcome& o) -> Cell {
@@ -197,6 +227,7 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
                 "surface_samples", "rel_mse", "rel_mse_4", "rel_mse_16", "top_error", "bias", "gain",
                 "surface_gain", "inverse_surface_share", "inverse_coverage"},
                "Samples and error.")}});
+  add_techniques(scene, report, progress);
   return measured;
 }
 

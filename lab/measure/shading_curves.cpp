@@ -90,6 +90,8 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
   for (const ShadingCurve& curve : {curves[0], gather("", "gather")}) {
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
   }
+  curves.push_back(path("dual", "path, indirect: dual", "drawn"));
+  curves.back().settings.emplace_back("render.indirect", "dual");
   for (ShadingCurve& curve : curves) curve = with_balls(std::move(curve), "off");
   curves.push_back(with_balls(path("skin_ball", "path, skin_ball: exact", "drawn"), "exact"));
   curves.push_back(with_balls(gather("gather_skin_ball", "gather, skin_ball: exact"), "exact"));

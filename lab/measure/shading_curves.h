@@ -10,16 +10,27 @@
 namespace pelage {
 
 /// Names of the ways to render that `measure shading` compares. `path` is always among them.
-inline constexpr const char* kShadingParts[] = {"path",        "splatted",
-                                                "adaptive",    "gather",
-                                                "visibility",  "reuse",
-                                                "spacing",     "skin_spacing",
-                                                "cells",       "light_rays",
-                                                "paths",       "cache",
-                                                "no_cache",    "drawn",
-                                                "screen_door", "gather_screen_door",
-                                                "skin_ball",   "gather_skin_ball",
-                                                "together",    "gather_together"};
+inline constexpr const char* kShadingParts[] = {"path",
+                                                "splatted",
+                                                "adaptive",
+                                                "gather",
+                                                "visibility",
+                                                "reuse",
+                                                "spacing",
+                                                "skin_spacing",
+                                                "cells",
+                                                "light_rays",
+                                                "paths",
+                                                "cache",
+                                                "no_cache",
+                                                "drawn",
+                                                "screen_door",
+                                                "gather_screen_door",
+                                                "dual",
+                                                "skin_ball",
+                                                "gather_skin_ball",
+                                                "together",
+                                                "gather_together"};
 
 /// One way to render, which is measured with several sample counts. Its results are one line in the plots of
 /// error over CPU time.

@@ -8,6 +8,7 @@
 #include "base/vector.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
+#include "render/accel/crossings.h"
 #include "render/accel/strand_handle.h"
 #include "render/accel/trace_counts.h"
 #include "render/light/part_set.h"
@@ -94,6 +95,9 @@ class Accel {
   /// Returns the fraction of light transmitted between near and far: the product of 1 - opacity over all
   /// crossings.
   virtual float transmittance(const Ray& ray, TraceThread& thread) const = 0;
+  /// Returns the strands between near and far, with opacity instead of a screen door. The ray ends at a skin,
+  /// and after `max` opaque strands (at least 1): StrandCount::strands is then infinite.
+  virtual StrandCount strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const = 0;
   /// Whether everything is opaque; then transmittance() is 0 or 1.
   virtual bool opaque() const = 0;
   virtual Box3f bounds() const = 0;

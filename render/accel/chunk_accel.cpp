@@ -188,10 +188,8 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   return nearest.hit;
 }
 
-float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
-  if (!is_finite(ray)) return 1;
+bool ChunkAccel::collect(const Ray& ray, TraceThread& thread, Crossings& crossings) const {
   FurRays rays;
-  Crossings crossings;
   bool blocked = false;
   visit_chunks(
       ray, ChunkWalk::Order::kLongestFirst, thread, [&] { return ray.far; },
@@ -204,7 +202,20 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
         if (blocked || crossings.reports() != before) chunks_.mark_hit(chunk);
         return !blocked;
       });
-  return blocked ? 0.0f : crossings.transmittance();
+  return !blocked;
+}
+
+float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
+  if (!is_finite(ray)) return 1;
+  Crossings crossings;
+  return collect(ray, thread, crossings) ? crossings.transmittance() : 0.0f;
+}
+
+StrandCount ChunkAccel::strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const {
+  if (!is_finite(ray)) return {};
+  Crossings crossings(std::max(max, 1u));
+  if (collect(ray, thread, crossings)) return crossings.total();
+  return {std::numeric_limits<float>::infinity(), 0};
 }
 
 }  // namespace pelage

@@ -22,9 +22,9 @@ namespace pelage {
 /// depend neither on the memory limit, nor on which chunks are resident, nor on the boxes, provided that the
 /// boxes contain their chunks.
 ///
-/// closest() and transmittance() pass on the exceptions of the grower. Thread safety: as Accel. A worker
-/// number (TraceThread::worker) may be used by one thread at a time, for one ray or one visit of chunks() at
-/// a time.
+/// closest(), transmittance() and strands_crossed() pass on the exceptions of the grower. Thread safety: as
+/// Accel. A worker number (TraceThread::worker) may be used by one thread at a time, for one ray or one visit
+/// of chunks() at a time.
 class ChunkAccel final : public Accel {
  public:
   /// Takes the arguments of ResidentChunks and throws the same errors. Charges its own memory before it makes
@@ -36,6 +36,7 @@ class ChunkAccel final : public Accel {
 
   Hit closest(const Ray& ray, TraceThread& thread) const override;
   float transmittance(const Ray& ray, TraceThread& thread) const override;
+  StrandCount strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const override;
   bool opaque() const override { return chunks_.opaque(); }
   Box3f bounds() const override { return chunks_.boxes().tree()->bounds(); }
 
@@ -48,6 +49,8 @@ class ChunkAccel final : public Accel {
   template <class Far, class Visit>
   class Visits;
 
+  /// Collects what a shadow ray crosses. Returns false when something blocks it.
+  bool collect(const Ray& ray, TraceThread& thread, Crossings& crossings) const;
   template <class Far, class Visit>
   void visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
                     const Visit& visit) const;

@@ -55,7 +55,8 @@ class ChunkGeometry : public Resident {
   static constexpr size_t kMaxRays = 16;
   virtual void closest_at(std::span<const Ray* const> rays, uint32_t segment, Hit* hits) const = 0;
   /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
-  /// the ray.
+  /// the ray. If `crossings` counts strands, adds all crossings with strands, and returns false if there are
+  /// too many.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
   /// Whether a camera ray with the random number `random` stops at a hit with a segment at the parameter `u`.
   virtual bool stops(uint32_t random, uint32_t primitive, float u) const = 0;

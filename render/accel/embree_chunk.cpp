@@ -157,6 +157,18 @@ struct EmbreeChunk::Filters {
     report.reject();
   }
 
+  /// Collects all crossings that are not the ray's own start; the one that is too many ends the query.
+  static void count_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    auto& query = report.query<LightQuery>();
+    const EmbreeChunk& chunk = query.chunk;
+    const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
+    const float opacity =
+        query.is_start(report) || is_exit(chunk, report) ? 0.0f : chunk.strands_->opacity(place, report.u());
+    if (opacity > 0 && !query.crossings.count(chunk.crossing(place, report.u()), opacity)) return;
+    report.reject();
+  }
+
   /// For secondary rays that see strands through a screen door.
   static void keep_nearest_at_door(const RTCFilterFunctionNArguments* arguments) noexcept {
     const EmbreeReport report(arguments);
@@ -312,8 +324,11 @@ bool EmbreeChunk::stops(uint32_t random, uint32_t primitive, float u) const {
 
 bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const {
   RTCRay r = embree_ray(ray, before_);
-  const bool asks = !opaque() || starts_here(ray);
-  const auto ask = sees_door(ray) ? Filters::block_at_door : Filters::collect_crossings;
+  const bool counts = strands_ && crossings.counts();
+  const bool asks = counts || !opaque() || starts_here(ray);
+  const auto ask = counts           ? Filters::count_crossings
+                   : sees_door(ray) ? Filters::block_at_door
+                                    : Filters::collect_crossings;
   LightQuery query(asks ? ask : nullptr, *this, ray, crossings);
   embree_occluded(scene_, query, r);
   return r.tfar >= 0;

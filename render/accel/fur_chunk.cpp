@@ -51,13 +51,15 @@ class FurChunk::StoppingFilter final : public FurFilter {
   const uint32_t random_;
 };
 
-/// Collects semi-transparent crossings; accepts opaque ones.
+/// Collects semi-transparent crossings; accepts opaque ones. If strands are counted, collects all crossings;
+/// accepts the one that is too many.
 class FurChunk::CollectingFilter final : public FurFilter {
  public:
   CollectingFilter(const FurChunk& chunk, Crossings& crossings) : chunk_(chunk), crossings_(crossings) {}
   bool accepts(const FurHit& hit) override {
     const PackedStrands::Place place = chunk_.strands_.locate(hit.number);
-    const float opacity = chunk_.strands_.opacity(place, hit.u);
+    const float opacity = chunk_.strands_.opaque() ? 1.0f : chunk_.strands_.opacity(place, hit.u);
+    if (crossings_.counts()) return opacity > 0 && !crossings_.count(chunk_.crossing(place, hit.u), opacity);
     if (opacity >= 1) return true;
     if (opacity > 0) crossings_.add(chunk_.crossing(place, hit.u), opacity);
     return false;
@@ -257,8 +259,9 @@ bool FurChunk::collect(const Ray& ray, FurRays& rays, Crossings& crossings) cons
   const FurRay* prepared = tree.nodes ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
   CollectingFilter collecting(*this, crossings);
   ScreenDoorFilter door(*this);
-  FurFilter& filter = sees_door(ray) ? static_cast<FurFilter&>(door) : collecting;
-  return !prepared || !fur_occludes(tree, *prepared, strands_.opaque() ? nullptr : &filter);
+  const bool counts = crossings.counts();
+  FurFilter& filter = sees_door(ray) && !counts ? static_cast<FurFilter&>(door) : collecting;
+  return !prepared || !fur_occludes(tree, *prepared, strands_.opaque() && !counts ? nullptr : &filter);
 }
 
 ScreenDoor FurChunk::door(uint32_t strand) const { return ScreenDoor(strands_.id(strand), part_); }

@@ -19,6 +19,7 @@ ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
   attributes["pelage:samples"] = static_cast<int>(header.samples);
   attributes["pelage:meanSamples"] = static_cast<float>(header.mean_samples);
   if (!header.adaptive.empty()) attributes["pelage:adaptive"] = header.adaptive;
+  if (header.dual) attributes["pelage:indirect"] = "dual";
   attributes["pelage:timeLimited"] = header.time_limited ? 1 : 0;
   attributes["pelage:partial"] = header.partial ? 1 : 0;
   attributes["pelage:renderSeconds"] = static_cast<float>(header.render_seconds);

@@ -21,6 +21,7 @@ struct FrameHeader {
   uint32_t samples = 0;       ///< min count over all pixels
   double mean_samples = 0;    ///< mean count over all pixels
   std::string adaptive;       ///< rule of adaptive sampling; empty if not adaptive
+  bool dual = false;          ///< light of many bounces is an estimate: `indirect: dual`
   bool partial = false;       ///< cancelled: some pixels have fewer samples than requested, or none
   bool time_limited = false;  ///< the time limit determined the number of samples
   double render_seconds = 0;

@@ -13,6 +13,7 @@ struct FrameResult {
   FrameWindow window = {};  ///< the part of the picture that was rendered
   uint32_t samples = 0;     ///< min sample count over the traced pixels
   double mean_samples = 0;  ///< mean sample count over the traced pixels
+  bool dual = false;        ///< light of many bounces is an estimate: `indirect: dual`
   double clamped_fraction = 0;  ///< fraction of the indirect light that render.clamp_indirect removed
   double noise = 0;             ///< frame_noise(); 0 if the film stores no moments
   bool time_limited = false;    ///< render.time_limit determined the number of samples

@@ -118,8 +118,9 @@ FrameShading::FrameShading(const FrameScene& scene, const SkinShadows* balls)
     : scene_(scene), balls_(balls), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
-      fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
-                               fibre->color.attribute_names()});
+      fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), std::nullopt, fibre->color,
+                               constant_of(fibre->color), fibre->color.attribute_names()});
+      if (scene.render.indirect == IndirectLight::kDual) fibres_[i]->averages.emplace(fibres_[i]->material);
     } else if (const auto* lambert = std::get_if<LambertParams>(&scene.materials[i])) {
       skins_[i] = Skin{lambert->color, constant_of(lambert->color), std::nullopt};
     } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
@@ -165,6 +166,10 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
   const FibreBsdf bsdf = fibre.material.at(at);
+  const auto finished = [&](ScatterPoint result) {
+    if (fibre.averages) result.set_dual({*fibre.averages, point.tangent, at.wo, at.color});
+    return result;
+  };
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1) {
@@ -173,23 +178,13 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
     // the side, a coat shows the upper edges of wide strands.
     const float beside_axis = 1 - 1 / lod->gain(share);
     represented.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
-    return {point.position,
-            point.tangent,
-            point.radius / lod->gain(share),
-            represented.away,
-            represented.can_hit_own_strand,
-            at.h,
-            bsdf};
+    return finished({point.position, point.tangent, point.radius / lod->gain(share), represented.away,
+                     represented.can_hit_own_strand, at.h, bsdf});
   }
   // Flat strands are hit where the ray is nearest to the axis, round ones where it enters.
   const float entry = scene_.render.curves == CurveShape::kFlat ? entry_place(at, hit.v) : 0.0f;
-  return {point.position,
-          point.tangent,
-          point.radius,
-          ray.origin + hit.distance * ray.direction,
-          at.h,
-          bsdf,
-          point.radius * (entry + fibre.material.farther(at))};
+  return finished({point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
+                   at.h, bsdf, point.radius * (entry + fibre.material.farther(at))});
 }
 
 Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,

@@ -35,6 +35,7 @@ class FrameShading {
  private:
   struct Fibre {
     FibreMaterial material;
+    std::optional<FibreAverageTable> averages;  // for `indirect: dual`
     Field color;
     std::optional<Rgb> constant_color;    // empty: `color` varies
     std::vector<std::string> attributes;  // names of the attributes that `color` reads

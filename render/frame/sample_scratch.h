@@ -37,6 +37,11 @@ struct SampleScratch {
     return costs.rays.measure(RayKind::kShadow, thread.counts,
                               [&] { return accel.transmittance(shadow, thread); });
   }
+  StrandCount strands_crossed(const Accel& accel, Ray shadow, uint32_t max) {
+    if (shadow.casters && shadow.casters->empty()) return {};
+    return costs.rays.measure(RayKind::kShadow, thread.counts,
+                              [&] { return accel.strands_crossed(shadow, max, thread); });
+  }
 };
 
 }  // namespace pelage

@@ -193,7 +193,7 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
                            ? power_weight(competing_pdf(pdf, sample->distance), lobe_pdf(result.value))
                            : 1.0f;
   result.arriving = sample->radiance * (weight / pdf);
-  result.luminance = luminance(result.value.total() * result.arriving);
+  result.luminance = luminance(point.likely(sample->direction, result.value) * result.arriving);
   if (!(result.luminance > 0)) return std::nullopt;
   return result;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <variant>
 
+#include "render/fibre/dual_scattering.h"
 #include "render/fibre/fibre_bsdf.h"
 #include "render/light/exit_circle.h"
 #include "render/light/magnet_set.h"
@@ -56,6 +57,14 @@ class ScatterPoint {
     FibreValue value = eval_lobes(wi);
     if (magnet_share_ > 0) attract(wi, value);
     return value;
+  }
+
+  /// Estimates the light that the surroundings of a fibre scatter to this point; null: paths find it.
+  const DualScattering* dual() const { return dual_ ? &*dual_ : nullptr; }
+  void set_dual(const DualScattering& dual) { dual_ = dual; }
+  /// Returns the scattering that light from `wi` may meet, to choose among lights; `value`: eval(wi).
+  Rgb likely(const V3f& wi, const FibreValue& value) const {
+    return dual_ ? value.total() + dual_->eval({}, wi, 1, 0).total() : value.total();
   }
 
   /// Samples a direction from the lobes or, where there are magnets, towards one of them.
@@ -154,6 +163,7 @@ class ScatterPoint {
   float skin_height_ = 1;  // of the skin above the axis, along the normal
   SkinShadow shadow_;
   std::optional<FramePart> part_;
+  std::optional<DualScattering> dual_;
   const MagnetSet* magnets_ = nullptr;
   float magnet_share_ = 0;  // MagnetSet::share()
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;

@@ -65,7 +65,7 @@ class PathWalk {
   /// Keeps references to its arguments, except `options`.
   PathWalk(const FrameScene& scene, const Accel& accel, const FrameShading& shading,
            const PathOptions& options)
-      : bounces_(static_cast<uint32_t>(scene.render.bounces)),
+      : bounces_(static_cast<uint32_t>(scene.render.path_bounces())),
         accel_(accel),
         shading_(shading),
         options_(options),
@@ -157,6 +157,8 @@ class PathWalk {
   }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
+  FibreValue dual_value(const DualScattering& dual, const FibreValue& direct, const Ray& shadow,
+                        SampleScratch& scratch) const;
   void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
                      SampleScratch& scratch, Sink& sink) const;
   bool sample_lobes(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
@@ -205,8 +207,23 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
     ray.casters = to.casters;
+    if (const DualScattering* dual = point.dual()) {
+      LightPoint scattered = to;
+      scattered.value = dual_value(*dual, to.value, ray, scratch);
+      sink.shadow(path, scattered, factor, 1);
+      return;
+    }
     sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
+}
+
+/// Returns the scattering of light that arrives along a shadow ray, `direct` where no strand is between.
+template <class Sink>
+FibreValue PathWalk<Sink>::dual_value(const DualScattering& dual, const FibreValue& direct, const Ray& shadow,
+                                      SampleScratch& scratch) const {
+  const auto max = static_cast<uint32_t>(dual.max_strands());
+  const StrandCount between = scratch.strands_crossed(accel_, shadow, max);
+  return dual.eval(direct, shadow.direction, between.strands, between.through);
 }
 
 /// Reports the lights that a ray sampled from the lobes of the current vertex `point` hits before `distance`.
@@ -216,18 +233,25 @@ template <class Sink>
 void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,
                                  SampleScratch& scratch, Sink& sink) const {
-  direct_.find_lights(point, ray.direction, distance, lobe_pdf, lights,
-                      [&](size_t light, const LightHit& hit, float weight) {
-                        float through = 1;
-                        if (shadowed) {
-                          Ray shadow = ray;
-                          shadow.far = hit.distance * DirectLight::kJustBefore;
-                          const bool proved = point.is_shadowed(shadow.direction, shadow.far);
-                          scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
-                          through = proved ? 0 : scratch.light_through(accel_, shadow);
-                        }
-                        sink.hit_light(path, light, hit.radiance, weight, through);
-                      });
+  direct_.find_lights(
+      point, ray.direction, distance, lobe_pdf, lights, [&](size_t light, const LightHit& hit, float weight) {
+        float through = 1;
+        if (shadowed) {
+          Ray shadow = ray;
+          shadow.far = hit.distance * DirectLight::kJustBefore;
+          const bool proved = point.is_shadowed(shadow.direction, shadow.far);
+          scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
+          if (const DualScattering* dual = point.dual(); dual && !proved) {
+            PathState scattered = path;
+            const FibreValue value = dual_value(*dual, point.eval(shadow.direction), shadow, scratch);
+            for (int g = 0; g < kLobeGroups; ++g) scattered.first[g] = value.lobes[g] / lobe_pdf;
+            sink.hit_light(scattered, light, hit.radiance, weight, 1);
+            return;
+          }
+          through = proved ? 0 : scratch.light_through(accel_, shadow);
+        }
+        sink.hit_light(path, light, hit.radiance, weight, through);
+      });
 }
 
 /// Traces a direction sampled from the lobes to the next vertex. Returns false where the path ends.

@@ -55,6 +55,23 @@ const Schema<BvhParams>& BvhParams::schema() {
 
 namespace {
 
+/// How light that is scattered more than once is found.
+void add_bounce_keys(Schema<RenderParams>& s) {
+  s.key("bounces", &RenderParams::bounces,
+        {.help = "Maximum number of indirect bounces; 0 is direct light only. Light-coloured fur needs "
+                 "many bounces",
+         .min = 0,
+         .max = 1024});
+  s.key(
+      "indirect", &RenderParams::indirect,
+      {.help = "How light that is scattered more than once is found. `path`: by `bounces` of paths. `dual`: "
+               "by dual scattering, a fast preview for fur: shadow rays count the strands between a point "
+               "and a light, and the average fibre tells how much light such strands pass on and scatter "
+               "back. It is an approximation: DUAL.md states its error. Needs `integrator: path`; "
+               "`bounces` has no effect, and light from skins and lights behind bends of the coat is left "
+               "out"});
+}
+
 /// What saves shadow rays and makes them cheaper.
 void add_occlusion_keys(Schema<RenderParams>& s) {
   s.key("skin_ball", &RenderParams::skin_ball,
@@ -112,11 +129,7 @@ const Schema<RenderParams>& RenderParams::schema() {
                    "reduce noise but take longer, much like more samples",
            .min = 1,
            .max = 64});
-    s.key("bounces", &RenderParams::bounces,
-          {.help = "Maximum number of indirect bounces; 0 is direct light only. Light-coloured fur needs "
-                   "many bounces",
-           .min = 0,
-           .max = 1024});
+    add_bounce_keys(s);
     add_occlusion_keys(s);
     s.key("clamp_indirect", &RenderParams::clamp_indirect,
           {.unit = "radiance",

@@ -19,6 +19,12 @@ template <>
 struct EnumNames<Integrator> {
   static constexpr const char* names[] = {"path", "gather"};
 };
+/// How light that strands scatter more than once is found.
+enum class IndirectLight { kPath, kDual };
+template <>
+struct EnumNames<IndirectLight> {
+  static constexpr const char* names[] = {"path", "dual"};
+};
 enum class AccelKind { kEmbree, kFur };
 template <>
 struct EnumNames<AccelKind> {
@@ -77,9 +83,10 @@ struct RenderParams {
   CurveShape curves = CurveShape::kFlat;
   int samples = 64;  ///< count per pixel; with adaptive sampling, the max count
   std::optional<AdaptiveParams> adaptive;
-  float time_limit = 0;                  ///< seconds; 0: no limit
-  int light_samples = 1;                 ///< shadow rays per vertex of a path
-  int bounces = 4;                       ///< max scatterings after the first; 0: direct light only
+  float time_limit = 0;   ///< seconds; 0: no limit
+  int light_samples = 1;  ///< shadow rays per vertex of a path
+  int bounces = 4;        ///< max scatterings after the first; 0: direct light only
+  IndirectLight indirect = IndirectLight::kPath;
   std::optional<SkinBallUse> skin_ball;  ///< empty: see ball_use()
   float clamp_indirect = 0;              ///< max luminance of the indirect light of one path; 0: no limit
   int64_t seed = 0;
@@ -90,6 +97,8 @@ struct RenderParams {
   BoundingStrategy bounds = BoundingStrategy::kExact;
   LodParams lod;
 
+  /// Returns the max count of scatterings that a path continues after the first.
+  int path_bounces() const { return indirect == IndirectLight::kDual ? 0 : bounces; }
   /// Whether the gather integrator draws what the camera sees, instead of tracing camera rays.
   bool draws_visible() const {
     return gather.visibility.value_or(GatherVisibility::kRaster) == GatherVisibility::kRaster &&

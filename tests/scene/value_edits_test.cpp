@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -98,6 +99,41 @@ TEST(ValueEdits, WhatCannotBeChangedAloneIsRefused) {
       EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
   }
+}
+
+TEST(ValueEdits, BlocksAreAddedAndRemoved) {
+  const ValueEdit add{{"lights", "lamp"}, {}, "{type: sphere, radius: 0.5}"};
+  const auto removed = [](const std::string& name) { return ValueEdit{{"lights", name}, {}, {}, true}; };
+  const std::string lines =
+      "lights:  # two\n  # warm\n  key:\n    radius: 1  # m\n\n    power: 3\n  # cold\n  sky: {power: "
+      "2}\nrender: {}\n";
+  EXPECT_EQ(with_values(lines, "scene", {add}),
+            "lights:  # two\n  # warm\n  lamp: {type: sphere, radius: 0.5}\n  key:\n    radius: 1  # m\n\n   "
+            " power: 3\n  # cold\n"
+            "  sky: {power: 2}\nrender: {}\n");
+  EXPECT_EQ(with_values(lines, "scene", {removed("key")}),
+            "lights:  # two\n  # warm\n  # cold\n  sky: {power: 2}\nrender: {}\n");
+  EXPECT_EQ(with_values(lines, "scene", {removed("sky")}),
+            "lights:  # two\n  # warm\n  key:\n    radius: 1  # m\n\n    power: 3\n  # cold\nrender: {}\n");
+  const std::string braces = "lights: {key: {text: 'a, }', b: [1, 2]}, sky: {power: 2}, rim: {power: 3}}\n";
+  EXPECT_EQ(with_values(braces, "scene", {add}),
+            "lights: {lamp: {type: sphere, radius: 0.5}, " + braces.substr(9));
+  EXPECT_EQ(with_values(braces, "scene", {removed("key")}), "lights: {sky: {power: 2}, rim: {power: 3}}\n");
+  EXPECT_EQ(with_values(braces, "scene", {removed("rim")}),
+            "lights: {key: {text: 'a, }', b: [1, 2]}, sky: {power: 2}}\n");
+  EXPECT_EQ(with_values(braces, "scene", {removed("rim"), removed("key")}), "lights: {sky: {power: 2}}\n");
+  EXPECT_EQ(values_text({add, removed("key")}),
+            "lights:\n  lamp: {type: sphere, radius: 0.5}\n  # removed: key\n");
+  // The last line may have no end.
+  EXPECT_EQ(with_values("lights:\n  key: {a: 1}\n  sky: {a: 2}", "scene", {removed("sky")}),
+            "lights:\n  key: {a: 1}\n");
+
+  for (const auto& [text, edit, why] : std::vector<std::tuple<std::string, ValueEdit, std::string>>{
+           {lines, {{"lights", "key"}, {}, "{a: 1}"}, "exists already"},
+           {lines, removed("kye"), "has no `lights.kye`"},
+           {"lights: {key: {a: 1}}", removed("key"), "is the last one here"},
+           {"render: {}", add, "has no block `lights`"}})
+    EXPECT_NE(error_of([&] { with_values(text, "scene", {edit}); }).find(why), std::string::npos) << why;
 }
 
 TEST(ValueEdits, TheTextToPasteNamesEachBlockOnce) {

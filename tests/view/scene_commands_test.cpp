@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/scene_commands.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -65,6 +66,72 @@ TEST_F(SceneCommandsTest, LightsOfAMixAreTextAndCanBeWritten) {
   EXPECT_EQ(set.status, 409);
   EXPECT_NE(set.json.find("--set lights.key.intensity=9"), std::string::npos) << set.json;
   EXPECT_EQ(read_file(path()), wanted);
+}
+
+TEST_F(SceneCommandsTest, LightsAreMovedAddedAndRemoved) {
+  state_.update([](ViewStatus& status) {
+    status.lights = {{"key", "sphere", {}, false}, {"sky", "environment", {}, false}};
+  });
+  const auto rig = [&](const std::string& body) { return run("rig.json", body); };
+  EXPECT_EQ(rig(R"({"action": "change", "light": "key", "values": {"position": [1, 2, 3]}})").status, 200);
+  EXPECT_EQ(rig(R"({"action": "change", "light": "key", "values": {"radius": [0.5]}})").status, 200);
+  const CommandAnswer added =
+      rig(R"({"action": "add", "type": "sphere", "values": {"position": [4, 5, 6]}})");
+  EXPECT_EQ(nlohmann::json::parse(added.json)["light"], "sphere");
+  EXPECT_EQ(state_.control().lights().size(), 2u);
+
+  const std::string before = read_file(path());
+  const std::string text = nlohmann::json::parse(rig(R"({"action": "text"})").json)["text"];
+  EXPECT_EQ(text,
+            "lights:\n  key:\n    position: [1, 2, 3]\n    radius: 0.5\n"
+            "  sphere: {type: sphere, position: [4, 5, 6]}\n");
+  EXPECT_EQ(read_file(path()), before);
+  const CommandAnswer written = rig(R"({"action": "write"})");
+  EXPECT_EQ(written.status, 200) << written.json;
+  EXPECT_TRUE(state_.control().lights().empty());
+  const SceneDescription scene = load_scene(path(), {});
+  const auto light = [&](const std::string& name) -> const SphereLightParams& {
+    const auto found = std::find_if(scene.lights.items.begin(), scene.lights.items.end(),
+                                    [&](const auto& item) { return item.name == name; });
+    return std::get<SphereLightParams>(found->value);
+  };
+  EXPECT_EQ(light("key").position.at(1), V3f(1, 2, 3));
+  EXPECT_EQ(light("key").radius, 0.5f);
+  EXPECT_EQ(light("sphere").position.at(1), V3f(4, 5, 6));
+
+  EXPECT_EQ(rig(R"({"action": "remove", "light": "key"})").status, 200);
+  EXPECT_EQ(rig(R"({"action": "write"})").status, 200);
+  const SceneDescription rest = load_scene(path(), {});
+  EXPECT_EQ(rest.lights.items.size(), 2u);
+  EXPECT_TRUE(std::none_of(rest.lights.items.begin(), rest.lights.items.end(),
+                           [](const auto& item) { return item.name == "key"; }));
+  expect_refused("rig.json", R"({"action": "text"})", "nothing to write");
+}
+
+TEST_F(SceneCommandsTest, ManyBouncesArePreviewed) {
+  EXPECT_EQ(run("preview.json", R"({"dual": true})").status, 200);
+  EXPECT_TRUE(state_.control().dual());
+  expect_refused("preview.json", R"({"dual": 1})", "expected true or false");
+  expect_refused("preview.json", R"({"daul": true})", "did you mean 'dual'?");
+  EXPECT_EQ(run("preview.json", R"({"dual": false})").status, 200);
+  EXPECT_FALSE(state_.control().dual());
+}
+
+TEST_F(SceneCommandsTest, WrongChangesOfLightsAreRefused) {
+  state_.update([](ViewStatus& status) { status.lights = {{"key", "sphere", {}, false}}; });
+  const auto change = [](const std::string& light, const std::string& values) {
+    return R"({"action": "change", "light": ")" + light + R"(", "values": )" + values + "}";
+  };
+  expect_refused("rig.json", change("kye", "{}"), "did you mean 'key'?");
+  expect_refused("rig.json", change("key", R"({"size": [1, 1]})"), "unknown key 'size'");
+  expect_refused("rig.json", change("key", R"({"radius": [0]})"), "radius: expected a number from");
+  expect_refused("rig.json", change("key", R"({"position": [1, 2]})"), "position: expected 3 numbers");
+  expect_refused("rig.json", change("key", R"({"position": [1, 2, 1e99]})"), "position: expected 3 numbers");
+  expect_refused("rig.json", R"({"action": "add", "type": "sphre"})", "did you mean 'sphere'?");
+  expect_refused("rig.json", R"({"action": "add", "type": "mesh"})", "add it by hand");
+  expect_refused("rig.json", R"({"action": "add", "type": 3})", "unknown type of light");
+  expect_refused("rig.json", R"({"action": "shine"})", "unknown value 'shine'");
+  EXPECT_TRUE(state_.control().lights().empty());
 }
 
 TEST_F(SceneCommandsTest, AFrameOfTheSceneIsChosen) {

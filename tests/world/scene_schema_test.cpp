@@ -175,6 +175,10 @@ TEST_F(SceneSchema, SettingsOfGather) {
             Lines{"--set render.gather: `min_width` needs `visibility: raster`"});
   EXPECT_EQ(problems(kScene, {gather, {"render.gather", "{cache: true, reuse: false}"}}),
             Lines{"--set render.gather: `cache: true` needs `reuse: true`"});
+  const Override dual{"render.indirect", "dual"};
+  EXPECT_EQ(problems(kScene, {gather, dual}),
+            Lines{"--set render.indirect: `indirect: dual` needs `integrator: path`"});
+  EXPECT_EQ(load(kScene, {path, dual}).render.path_bounces(), 0);
   EXPECT_FALSE(load(kScene, {gather, {"render.gather", "{cache: false, reuse: false}"}}).render.gather.reuse);
   EXPECT_TRUE(load(kScene, {gather, raster}).warnings.empty());
   const std::vector<Problem> warnings = load(kScene, {path, raster}).warnings;

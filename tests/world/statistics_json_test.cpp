@@ -46,6 +46,7 @@ TEST(StatsJson, HoldsWhatIsPromised) {
                            "reexpansions",
                            "false_expansions",
                            "samples_rejected",
+                           "indirect",
                            "clamped_fraction",
                            "peak_anonymous_bytes",
                            "baseline_anonymous_bytes",

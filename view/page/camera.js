@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera {position, look_at, up, fov, height} that turns about the point it looks at. All functions return a new camera.
-const add = (a, b, s = 1) => a.map((v, i) => v + s * b[i]);
-const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const length = a => Math.hypot(...a);
-const unit = a => a.map(v => v / length(a));
+export const add = (a, b, s = 1) => a.map((v, i) => v + s * b[i]);
+export const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const length = a => Math.hypot(...a);
+export const unit = a => a.map(v => v / length(a));
 
 // Rotates a vector about a unit axis (Rodrigues' formula).
-function rotate(v, axis, angle) {
+export function rotate(v, axis, angle) {
   const c = Math.cos(angle), s = Math.sin(angle);
   return add(add(v.map(x => x * c), cross(axis, v), s), axis, dot(axis, v) * (1 - c));
 }

@@ -11,6 +11,7 @@ export class PictureCanvas {
     this.left = this.top = 0;
     this.box = null;
     this.marks = null;
+    this.overlay = null;
     this.source = canvas.picture = document.createElement("canvas");
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener("wheel", event => this.wheel(event), {passive: false});
@@ -81,6 +82,8 @@ export class PictureCanvas {
 
   toPicture(x, y) { return {x: (x - this.left) / this.scale, y: (y - this.top) / this.scale}; }
 
+  toScreen(x, y) { return {x: this.left + x * this.scale, y: this.top + y * this.scale}; }
+
   // Height of the whole picture in pixels of the screen.
   shownHeight() { return this.source.height * this.scale; }
 
@@ -103,6 +106,12 @@ export class PictureCanvas {
     this.draw();
   }
 
+  // Draws over the picture: overlay(context, place, ratio), where place([x, y]) is the place of a point of the picture.
+  setOverlay(overlay) {
+    this.overlay = overlay;
+    this.draw();
+  }
+
   draw() {
     const {canvas, source} = this, ratio = devicePixelRatio;
     const width = canvas.clientWidth, height = canvas.clientHeight;
@@ -120,6 +129,8 @@ export class PictureCanvas {
                       source.height * this.scale * ratio);
     if (this.box) this.drawBox(context, ratio);
     if (this.marks) this.drawMarks(context, ratio);
+    const s = this.scale * ratio;
+    this.overlay?.(context, ([x, y]) => [this.left * ratio + x * s, this.top * ratio + y * s], ratio);
   }
 
   drawBox(context, ratio) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import {pixelFor, readLayers, readState, valueAt} from "./server.js";
+import {command, pixelFor, readLayers, readState, valueAt} from "./server.js";
 import {paint} from "./colors.js";
 import {PictureCanvas} from "./canvas.js";
 import {CameraTool} from "./camera_tool.js";
 import {RegionTool} from "./region_tool.js";
+import {LightTool} from "./light_tool.js";
 import {WhyTool} from "./why_tool.js";
 import {Mixer} from "./mixer.js";
 import {FrameChoice} from "./frame_choice.js";
@@ -23,13 +24,15 @@ const view = {
   },
 };
 const camera = new CameraTool(view), region = new RegionTool(view);
+view.camera = () => camera.camera;  // the one that is to be shown; null: the state's
 const why = new WhyTool(view, () => toggle("why_mode", false)), frames = new FrameChoice(view.tell);
 const isOn = id => element(id).getAttribute("aria-pressed") === "true";
 const takesClick = (event, id, key) => event.type === "pointerdown" && (event[key] || isOn(id));
 const toolOf = event => takesClick(event, "region_mode", "shiftKey") ? region : takesClick(event, "why_mode", "altKey") ? why
-                        : isOn("camera_mode") ? camera : null;
+                        : lights.takes(event) ? lights : isOn("camera_mode") ? camera : null;
 const canvas = view.canvas =
   new PictureCanvas(element("canvas"), pixel => { cursor = pixel; showValues(); }, toolOf);
+const lights = new LightTool(view);
 const mixer = new Mixer(() => { chooseBeauty(); drawSoon(); });
 
 function chooseBeauty() {
@@ -92,6 +95,7 @@ function showState() {
   if (state.camera.note !== told) view.tell(told = state.camera.note);
   frames.update(state);
   element("shared").textContent = state.pages > 1 ? `${state.pages} pages share one camera, region and frame` : "";
+  element("dual").setAttribute("aria-pressed", state.dual);
   element("camera_text").disabled = element("camera_reset").disabled = !state.camera.moved;
   if (!region.from) {
     canvas.setBox(state.region);
@@ -114,6 +118,7 @@ async function refresh() {
   if (changed) draw();
   camera.update();
   why.update();
+  lights.update();
   if (isOn("camera_mode")) await camera.findDepth();
   showState();
   document.body.dataset.version = layer ? layer.version : 0;
@@ -128,7 +133,7 @@ async function follow() {
   } catch (problem) {
     element("status").textContent = "no answer: has `pelage view` ended?";
   }
-  setTimeout(follow, camera.camera ? kFastPoll_ms : kPoll_ms);
+  setTimeout(follow, camera.camera || lights.moved.size ? kFastPoll_ms : kPoll_ms);
 }
 
 // The modes that take clicks: each before those that come after it.
@@ -141,6 +146,7 @@ function toggle(id, on = !isOn(id)) {
   element("camera_bar").hidden = !isOn("camera_mode");
   element("canvas").classList.toggle("camera", isOn("camera_mode"));
   element("lights").hidden = !isOn("lights_mode");
+  if (lights.open !== isOn("lights_mode")) lights.show(isOn("lights_mode"));
 }
 
 element("layer").addEventListener("change", () => refresh().catch(() => {}));
@@ -161,10 +167,11 @@ addEventListener("pointerup", () => compare(false));
 
 for (const id of ["camera_mode", "lights_mode", "why_mode"]) element(id).addEventListener("click", () => toggle(id));
 element("region_mode").addEventListener("click", () => state?.region ? region.clear() : toggle("region_mode"));
+element("dual").addEventListener("click", () => command("preview.json", {dual: !isOn("dual")}).catch(problem => view.tell(problem.message)));
 element("camera_reset").addEventListener("click", () => camera.reset());
 element("camera_text").addEventListener("click", () => offerText("Camera of this view", "camera.json", {}));
 
-const keys = {f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode"};
+const keys = {d: "dual", f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode"};
 addEventListener("keydown", event => {
   const isTyping = ["SELECT", "TEXTAREA", "INPUT"].includes(event.target.tagName) && event.target.type !== "range";
   if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;

@@ -2,6 +2,7 @@
 #include "tests/render/accel/embree_accel.h"
 
 #include <algorithm>
+#include <set>
 
 #include "render/accel/crossings.h"
 #include "render/accel/embree_query.h"
@@ -137,6 +138,21 @@ float EmbreeAccel::transmittance(const Ray& ray, TraceThread&) const {
   LightQuery query(collect_crossings, *scene_);
   embree_occluded(scene_->get(), query, r);
   return r.tfar < 0 ? 0.0f : query.crossings.transmittance();
+}
+
+/// Counts with one ray after another, each from the last hit on: the slow truth of ChunkAccel's count. Only
+/// for opaque strands.
+StrandCount EmbreeAccel::strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const {
+  const float kEnd = std::numeric_limits<float>::infinity();
+  std::set<CrossingPlace> places;
+  Ray rest = ray;
+  while (const Hit hit = closest(rest, thread)) {
+    if (hit.kind == HitKind::kSkin) return {kEnd, 0};
+    places.insert({hit.strand_id, hit.part, hit.segment + joint_beside(hit.u, kTessellationRate)});
+    if (places.size() > max) return {kEnd, 0};
+    rest.near = std::nextafter(hit.distance, kEnd);
+  }
+  return {static_cast<float>(places.size()), places.empty() ? 1.0f : 0.0f};
 }
 
 bool EmbreeAccel::opaque() const { return scene_->opaque(); }

@@ -22,6 +22,7 @@ class EmbreeAccel final : public Accel {
 
   Hit closest(const Ray& ray, TraceThread& thread) const override;
   float transmittance(const Ray& ray, TraceThread& thread) const override;
+  StrandCount strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const override;
   bool opaque() const override;
   Box3f bounds() const override;
 

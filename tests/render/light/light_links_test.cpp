@@ -125,7 +125,9 @@ TEST(LightLinks, GatherFindsTheMeanOfPath) {
       path += luminance(linked_fur(Integrator::kPath, lamps, seed).mean);
       gather += luminance(linked_fur(Integrator::kGather, lamps, seed).mean);
     }
-    EXPECT_NEAR(gather / path, 1, 0.025) << lamps;
+    // Both integrators take the same camera samples, so most of the noise cancels: over ten seeds, in pairs
+    // as here and in eights, the ratio differs from 1 by at most 0.2 %. This is five times as much.
+    EXPECT_NEAR(gather / path, 1, 0.01) << lamps;
     EXPECT_GT(path, 0.1);
   }
 }

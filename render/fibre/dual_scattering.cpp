@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/fibre/dual_scattering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/fibre/longitudinal.h"
+
+namespace pelage {
+namespace {
+
+constexpr float kNoLightLeft = 0.03f;  // fraction of light that is as good as none
+constexpr float kMaxStrands = 64;
+
+/// Mean shift and variance of the light that the fibres around a point scatter back [Zinke08, equations 16
+/// and 17], with the means of a_f and a_b over the channels.
+struct BackscatterShape {
+  float shift = 0, variance = 0;
+
+  explicit BackscatterShape(const FibreAverages& of) {
+    const float f = (of.forward.x + of.forward.y + of.forward.z) / 3;
+    const float b = (of.backward.x + of.backward.y + of.backward.z) / 3;
+    const float f2 = f * f, b2 = b * b, left = std::max(1 - f2, 1e-3f);
+    shift = of.backward_shift * (1 - 2 * b2 / (left * left)) +
+            of.forward_shift * (2 * left * left + 4 * f2 * b2) / (left * left * left);
+    // Further than a quarter turn, the first terms of the series mean nothing.
+    shift = std::clamp(shift, -0.5f * kPi, 0.5f * kPi);
+    const float vf = of.forward_variance, vb = of.backward_variance;
+    const float deviation = (1 + 0.7f * f2) *
+                            (b * std::sqrt(2 * vf + vb) + b * b2 * std::sqrt(2 * vf + 3 * vb)) /
+                            std::max(b + b * b2 * (2 * std::sqrt(vf) + 3 * std::sqrt(vb)), 1e-6f);
+    variance = deviation * deviation;
+  }
+};
+
+}  // namespace
+
+float stack_backscatter(float forward, float backward) {
+  if (!(backward > 0)) return 0;
+  const float b = 1 + backward * backward - forward * forward;
+  const float reflectance = (b - std::sqrt(std::max(0.0f, b * b - 4 * backward * backward))) / (2 * backward);
+  return forward * forward * reflectance / (1 - backward * reflectance);
+}
+
+float DualScattering::max_strands() const {
+  float most = 0;
+  for (const float sin_theta : {-0.7f, 0.0f, 0.7f})
+    most = std::max(most, max_component(table_->at(sin_theta, color_).forward));
+  if (!(most > 0)) return 1;
+  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(most, 0.999f))), 1.0f, kMaxStrands);
+}
+
+FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float strands, float through) const {
+  const FibreAngles in = frame_.angles(wi);
+  const FibreAverages fibre = table_->at(in.sin_theta, color_);
+  const BackscatterShape shape(fibre);
+  const float backward = (1 + std::cos(in.phi)) / (2 * kPi), forward = (1 - std::cos(in.phi)) / (2 * kPi);
+  // The lobes are tilted by turning the view.
+  const auto lobe = [&](float shift, float variance) {
+    const float sine = frame_.sin_theta_o() * std::cos(shift) - frame_.cos_theta_o() * std::sin(shift);
+    const float cosine = std::sqrt(std::max(0.0f, 1 - sine * sine));
+    return LongitudinalLobe(variance).density(in.sin_theta, in.cos_theta, sine, cosine);
+  };
+  const bool arrives = std::isfinite(strands);
+  const float spread = arrives ? strands * fibre.forward_variance : 0;
+  const float back_now = through > 0 ? backward * lobe(shape.shift, shape.variance) : 0;
+  const float back_spread =
+      arrives && strands > 0 ? backward * lobe(shape.shift, shape.variance + spread) : 0;
+  const float on = forward * lobe(fibre.forward_shift, fibre.forward_variance + spread);
+  const float returned = backward * lobe(fibre.backward_shift, fibre.backward_variance + spread);
+  FibreValue value = direct;
+  for (Rgb& lobes : value.lobes) lobes *= through;
+  for (int c = 0; c < 3; ++c) {
+    const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
+    const float crossed = arrives ? std::pow(fibre.forward[c], strands) : 0;
+    const float scattered = std::max(0.0f, crossed - through);
+    value[LobeGroup::kDiffuse][c] +=
+        through * around * back_now +
+        scattered * (fibre.forward[c] * on + fibre.backward[c] * returned + around * back_spread);
+  }
+  return value;
+}
+
+}  // namespace pelage

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/light_changes.h"
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace pelage {
+namespace {
+
+constexpr double kFar = 1e9;                                     // scene units
+constexpr double kTiny = 1e-6;                                   // scene units: smallest size of a light
+constexpr double kCones[] = {0.1, 170}, kSuns[] = {0.001, 180};  // degrees, as the schemas of the lights
+
+std::vector<double> list(const V3f& v) { return {v.x, v.y, v.z}; }
+
+/// The values of the keys that light_keys() names.
+template <class Params>
+std::map<std::string, std::vector<double>> values_of(const Params& light, double frame) {
+  std::map<std::string, std::vector<double>> values;
+  if constexpr (requires { light.position; }) values["position"] = list(light.position.at(frame));
+  if constexpr (requires { light.look_at; }) values["look_at"] = list(light.look_at.at(frame));
+  if constexpr (requires { light.direction; }) values["direction"] = list(light.direction.at(frame));
+  if constexpr (requires { light.up; }) values["up"] = list(light.up);
+  if constexpr (requires { light.radius; }) values["radius"] = {double{light.radius}};
+  if constexpr (requires { light.cone; }) values["cone"] = {double{light.cone}};
+  if constexpr (requires { light.angle; }) values["angle"] = {double{light.angle}};
+  if constexpr (std::is_same_v<Params, RectangleLightParams>)
+    values["size"] = {double{light.size.x}, double{light.size.y}};
+  return values;
+}
+
+/// A new light as YAML: {type: sphere, radius: 0.5}.
+std::string block_text(const LightChange& change) {
+  std::string text = "{type: " + change.added_type;
+  for (const auto& [key, numbers] : change.values) text += ", " + key + ": " + numbers_text(numbers);
+  return text + "}";
+}
+
+}  // namespace
+
+std::vector<ValueEdit> light_change_edits(const LightChanges& changes) {
+  std::vector<ValueEdit> edits;
+  for (const auto& [name, change] : changes) {
+    ValueEdit edit{{"lights", name}, {}};
+    if (change.removed) {
+      edit.removed = true;
+      edits.push_back(std::move(edit));
+    } else if (!change.added_type.empty()) {
+      edit.block = block_text(change);
+      edits.push_back(std::move(edit));
+    } else {
+      for (const auto& [key, numbers] : change.values) edits.push_back({{"lights", name, key}, numbers});
+    }
+  }
+  return edits;
+}
+
+std::vector<Override> light_change_overrides(const LightChanges& changes) {
+  std::vector<Override> overrides;
+  for (const ValueEdit& edit : light_change_edits(changes)) {
+    Override override;
+    for (const std::string& part : edit.path) override.key += (override.key.empty() ? "" : ".") + part;
+    override.value = edit.block.empty() && !edit.removed ? numbers_text(edit.numbers) : edit.block;
+    if (edit.removed) override.value = "null";
+    overrides.push_back(std::move(override));
+  }
+  return overrides;
+}
+
+std::vector<ViewLight> view_lights(const SceneDescription& scene, double frame, const LightChanges& changes) {
+  std::vector<ViewLight> lights;
+  for (const auto& light : scene.lights.items) {
+    std::visit(
+        [&]<class Params>(const Params& params) {
+          lights.push_back(
+              {light.name, Params::kTypeName, values_of(params, frame), changes.contains(light.name)});
+        },
+        light.value);
+  }
+  return lights;
+}
+
+const std::vector<LightKey>& light_keys(const std::string& type) {
+  static const std::map<std::string, std::vector<LightKey>> table = [] {
+    const LightKey position{"position", 3, -kFar, kFar}, look_at{"look_at", 3, -kFar, kFar},
+        radius{"radius", 1, kTiny, kFar}, intensity{"intensity", 1, 0, kFar};
+    return std::map<std::string, std::vector<LightKey>>{
+        {"rectangle", {position, look_at, {"size", 2, kTiny, kFar}, intensity}},
+        {"disk", {position, look_at, radius, intensity}},
+        {"sphere", {position, radius, intensity}},
+        {"point", {position, radius, intensity}},
+        {"spot", {position, look_at, radius, {"cone", 1, kCones[0], kCones[1]}, intensity}},
+        {"sun", {{"direction", 3, -kFar, kFar}, {"angle", 1, kSuns[0], kSuns[1]}, intensity}},
+        {"mesh", {}},
+        {"environment", {}}};
+  }();
+  if (const auto found = table.find(type); found != table.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, keys] : table) names.push_back(name);
+  throw Error(ErrorKind::kArguments, "unknown type of light " + quote(type) + suggest(type, names));
+}
+
+}  // namespace pelage
