@@ -37,6 +37,21 @@ class PassView {
     return *film_;
   }
 
+  /// Names of all layers.
+  std::vector<std::string> names() const {
+    std::vector<std::string> channels, names;
+    film().exr_pixels({0, 0, 0, 0}, [&](const std::string& channel) {
+      channels.push_back(channel);
+      return false;
+    });
+    for (const std::string& channel : channels) {
+      const std::string layer = layer_of(channel, channels);
+      if (std::find(names.begin(), names.end(), layer) == names.end()) names.push_back(layer);
+    }
+    return names;
+  }
+
+  /// The layers of these names, which names() must have; all without names.
   py::dict layers(const std::optional<std::vector<std::string>>& wanted) const {
     const Film& shown = film();
     const PixelBox all{0, 0, shown.width(), shown.height()};
@@ -230,6 +245,7 @@ py::dict names_of(SceneSession& session) {
 void bind_scene(py::module_& module) {
   py::class_<PassView, std::shared_ptr<PassView>>(module, "PassView")
       .def("layers", &PassView::layers)
+      .def_property_readonly("names", &PassView::names)
       .def_property_readonly("samples", [](const PassView& v) { return v.state().samples; })
       .def_property_readonly("mean_samples", [](const PassView& v) { return v.state().mean_samples; })
       .def_property_readonly("grid", [](const PassView& v) { return v.state().grid; })

@@ -8,6 +8,8 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ._arguments import text
+from ._arrays import refuse_masked
 from ._geometry import Mesh, Poses
 from ._strands import Strands
 
@@ -18,8 +20,10 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
     """Returns `value` as None, str, list, dict, MeshData, PoseData or StrandData. `path`: keys that lead to it, for errors."""
     if depth > _MAX_DEPTH:
         raise ValueError(f"{path}: nested more than {_MAX_DEPTH} levels deep, or in itself")
-    if value is None or isinstance(value, str):
-        return value
+    if value is None:
+        return None
+    if isinstance(value, str):
+        return text(value, path)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -33,8 +37,9 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
     if isinstance(value, Strands):
         return value._shared()
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return text(os.fspath(value), path)
     if hasattr(value, "tolist") and hasattr(value, "dtype"):  # arrays and scalars of numpy
+        refuse_masked(value, path)
         return scene_value(value.tolist(), path, depth + 1)
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [scene_value(item, f"{path}.{i}", depth + 1) for i, item in enumerate(value)]
@@ -52,12 +57,12 @@ def _key(key: Any, path: str) -> str:
         return str(key)
     if not isinstance(key, str):
         raise TypeError(f"{path or 'scene'}: expected names as keys, got {type(key).__name__}")
-    return key
+    return text(key, path or "scene")
 
 
 def changes(key: Any, value: Any = None) -> dict[str, Any]:
     """Returns the arguments of Scene.set() as a dict from keys "a.b.c" to values."""
-    pairs = key if isinstance(key, Mapping) else {key: value}
+    pairs = key if isinstance(key, Mapping) else {_key(key, "key"): value}
     return {_key(name, "key"): scene_value(item, name) for name, item in pairs.items()}
 
 

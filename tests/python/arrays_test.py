@@ -113,6 +113,11 @@ class FromArrays(unittest.TestCase):
             ({"points": line[0], "offsets": [0, 3]}, ValueError, "offsets: expected ascending numbers from 0 to 2"),
             ({"attributes": {"age": [1, 2, 3]}}, ValueError, "age: expected 1, 1 or 2 rows"),
             ({"basis": "bezzier"}, ValueError, "basis: expected"),
+            ({"basis": 5}, TypeError, "basis: expected text, got int"),
+            ({"attributes": [1]}, TypeError, "attributes: expected a dict, got list"),
+            ({"attributes": {5: [1]}}, TypeError, "attributes: expected text, got int"),
+            ({"ids": [1, [2]]}, ValueError, "ids: setting an array element"),
+            ({"widths": np.ma.masked}, ValueError, "widths: some values are masked"),
         ]:
             with self.assertRaisesRegex(kind, message):
                 pelage.Strands(**{"points": line, "widths": 0.1, **arguments})
