@@ -127,8 +127,8 @@ class PythonWatch final : public FrameWatch {
 class Session {
  public:
   template <class Source>
-  Session(const Source& source, const std::vector<Override>& changes, int threads)
-      : session_(source, changes, threads) {}
+  Session(const Source& source, const std::vector<Override>& changes, int threads, bool allow_scripts)
+      : session_(source, changes, threads, allow_scripts ? ScriptUse::kAllowed : ScriptUse::kRefused) {}
 
   SceneSession& operator*() { return session_; }
   SceneSession* operator->() { return &session_; }
@@ -262,11 +262,13 @@ void bind_scene(py::module_& module) {
            })
       .def_property_readonly("warnings", [](Session& s) { return warnings_of(*s); })
       .def_property_readonly("names", [](Session& s) { return names_of(*s); });
-  module.def("open_scene", [](const std::filesystem::path& path, const py::dict& changes, int threads) {
-    return std::make_shared<Session>(path, to_overrides(changes), threads);
-  });
-  module.def("make_scene", [](const py::dict& document, const py::dict& changes, int threads) {
-    return std::make_shared<Session>(to_value(document, ""), to_overrides(changes), threads);
+  module.def("open_scene",
+             [](const std::filesystem::path& path, const py::dict& changes, int threads, bool allow_scripts) {
+               return std::make_shared<Session>(path, to_overrides(changes), threads, allow_scripts);
+             });
+  module.def("make_scene", [](const py::dict& document, const py::dict& changes, int threads,
+                              bool allow_scripts) {
+    return std::make_shared<Session>(to_value(document, ""), to_overrides(changes), threads, allow_scripts);
   });
 }
 

@@ -42,6 +42,13 @@ def callback(value: Any, name: str) -> Any:
     return value
 
 
+def flag(value: Any, name: str) -> bool:
+    """Returns True or False."""
+    if not isinstance(value, bool):
+        raise TypeError(f"{name}: expected True or False, got {type(value).__name__}")
+    return value
+
+
 def whole(value: Any, name: str, least: int, most: int) -> int:
     """Returns an integer from `least` to `most`."""
     if isinstance(value, bool) or not hasattr(value, "__index__"):

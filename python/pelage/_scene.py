@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional
 
 from . import _pelage
-from ._arguments import callback, mapping, number, text, whole
+from ._arguments import callback, flag, mapping, number, text, whole
 from ._arguments import path as file_path
 from ._errors import PelageWarning
 from ._picture import Pass, Picture
@@ -30,16 +30,18 @@ class Scene:
     folder. `pelage.open(path)` reads a file.
 
     threads: number of threads; 0 means all processors. The pixels do not depend on it.
+    allow_scripts: whether operators `python` may run the functions that the scene names. They may do whatever you may do,
+        so pass True only for scenes that you trust.
 
     Several threads may use one scene: their renders take turns. Two scenes render at the same time. All methods raise
     pelage.Error, with file, line, column and nearest name; TypeError and ValueError name the key of a bad value.
     """
 
-    def __init__(self, values: Mapping[str, Any], *, threads: int = 0) -> None:
+    def __init__(self, values: Mapping[str, Any], *, threads: int = 0, allow_scripts: bool = False) -> None:
         if not isinstance(values, Mapping):
             raise TypeError(f"values: expected a dict, got {type(values).__name__}")
         document = scene_value({"pelage": 1, **values}, "")
-        self._take(_pelage.make_scene(document, {}, whole(threads, "threads", 0, 4096)))
+        self._take(_pelage.make_scene(document, {}, whole(threads, "threads", 0, 4096), flag(allow_scripts, "allow_scripts")))
 
     def _take(self, session: _pelage.Session) -> None:
         self._session = session
@@ -47,9 +49,9 @@ class Scene:
         self._warn()
 
     @staticmethod
-    def _open(path: str, set: Mapping[str, Any] | None, threads: int) -> Scene:
+    def _open(path: str, set: Mapping[str, Any] | None, threads: int, allow_scripts: bool) -> Scene:
         scene = Scene.__new__(Scene)
-        scene._take(_pelage.open_scene(path, changes(mapping(set, "set")), threads))
+        scene._take(_pelage.open_scene(path, changes(mapping(set, "set")), threads, flag(allow_scripts, "allow_scripts")))
         return scene
 
     def _warn(self) -> None:
@@ -155,13 +157,16 @@ class Scene:
         return f"<pelage.Scene: grooms {', '.join(self.grooms) or 'none'}; {self.size[0]} x {self.size[1]}>"
 
 
-def open(path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, threads: int = 0) -> Scene:
+def open(
+    path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, threads: int = 0, allow_scripts: bool = False
+) -> Scene:
     """Opens a scene file.
 
     set: values that replace values of the file, by key. threads: number of threads; 0 means all processors.
+    allow_scripts: see Scene.
     Raises pelage.Error with all mistakes of the file, each with line and column.
     """
-    return Scene._open(file_path(path, "path"), set, whole(threads, "threads", 0, 4096))
+    return Scene._open(file_path(path, "path"), set, whole(threads, "threads", 0, 4096), allow_scripts)
 
 
 def _frame(frame: Any) -> float | None:

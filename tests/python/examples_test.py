@@ -30,7 +30,7 @@ class Examples(unittest.TestCase):
         shown = re.findall(r"\((\w+)\.py\)", (SOURCE / "examples/python/README.md").read_text(encoding="utf-8"))
         files = {path.stem for path in (SOURCE / "examples/python").glob("*.py")}
         self.assertEqual(set(shown), files)
-        few = {"sweep": ["32"], "numpy_groom": ["24"], "layers": ["32"], "lobes": ["chiang"]}
+        few = {"sweep": ["32"], "numpy_groom": ["24"], "layers": ["32"], "waves": ["24"], "lobes": ["chiang"]}
         for name in shown:
             with self.subTest(name):
                 self.run_example(name, *few.get(name, []))
