@@ -11,13 +11,14 @@ from typing import Any
 from ._arguments import text
 from ._arrays import refuse_masked
 from ._geometry import Mesh, Poses
+from ._map import Map
 from ._strands import Strands
 
 _MAX_DEPTH = 64
 
 
 def scene_value(value: Any, path: str, depth: int = 0) -> Any:
-    """Returns `value` as None, str, list, dict, MeshData, PoseData or StrandData. `path`: keys that lead to it, for errors."""
+    """Returns `value` as None, str, list, dict, MeshData, PoseData, ImageData or StrandData. `path`: keys that lead to it, for errors."""
     if depth > _MAX_DEPTH:
         raise ValueError(f"{path}: nested more than {_MAX_DEPTH} levels deep, or in itself")
     if value is None:
@@ -32,7 +33,7 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
         return _number(value, path)
     if isinstance(value, Mapping):
         return {_key(key, path): scene_value(item, f"{path}.{key}".lstrip("."), depth + 1) for key, item in value.items()}
-    if isinstance(value, (Mesh, Poses)):
+    if isinstance(value, (Map, Mesh, Poses)):
         return value._data
     if isinstance(value, Strands):
         return value._shared()
@@ -40,10 +41,12 @@ def scene_value(value: Any, path: str, depth: int = 0) -> Any:
         return text(os.fspath(value), path)
     if hasattr(value, "tolist") and hasattr(value, "dtype"):  # arrays and scalars of numpy
         refuse_masked(value, path)
+        if path.rpartition(".")[2] == "map" and getattr(value, "ndim", 0) in (2, 3):
+            return Map(value)._data
         return scene_value(value.tolist(), path, depth + 1)
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [scene_value(item, f"{path}.{i}", depth + 1) for i, item in enumerate(value)]
-    raise TypeError(f"{path}: expected a number, text, list, dict, Mesh, Poses or Strands, got {type(value).__name__}")
+    raise TypeError(f"{path}: expected a number, text, list, dict, Map, Mesh, Poses or Strands, got {type(value).__name__}")
 
 
 def _number(value: float, path: str) -> str:

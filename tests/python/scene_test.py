@@ -75,8 +75,8 @@ class Values(unittest.TestCase):
         scene = pelage.Scene(scene_values())
         for value, kind, message in [
             (float("nan"), ValueError, "render.samples: expected a finite number, got nan"),
-            (object(), TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got object"),
-            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got bytes"),
+            (object(), TypeError, "render.samples: expected a number, text, list, dict, Map, Mesh, Poses or Strands, got object"),
+            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Map, Mesh, Poses or Strands, got bytes"),
             ({(1,): 2}, TypeError, "render.samples: expected names as keys, got tuple"),
         ]:
             with self.assertRaises(kind) as caught:
