@@ -22,6 +22,12 @@ V3f point_of(const std::vector<float>& positions, size_t i) {
   return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
 }
 
+/// Names a strand in messages. The centres of clumps are strands, too, and their ids have the highest bit.
+std::string name_of(uint64_t id) {
+  constexpr uint64_t kCentre = uint64_t(1) << 63;
+  return id & kCentre ? fmt::format("the clump centre {}", id & ~kCentre) : fmt::format("strand {}", id);
+}
+
 /// Indices of every fourth strand of a batch, in reverse order; of few strands, each of them twice.
 std::vector<size_t> other_batch(const StrandBatch& batch) {
   std::vector<size_t> strands;
@@ -108,7 +114,7 @@ void PythonOperator::prepare(const PrepareContext& context) {
 
 void PythonOperator::fail(uint64_t strand, const std::string& what) const {
   throw Error(ErrorKind::kInput, position_,
-              fmt::format("'python' {}() {} strand {} of {}", params_.function, what, strand, owner_));
+              fmt::format("'python' {}() {} {} of {}", params_.function, what, name_of(strand), owner_));
 }
 
 /// Calls the function. If it fails, looks for a strand for which it fails alone.
@@ -127,7 +133,7 @@ void PythonOperator::run(ScriptBatch& strands, const StrandBatch& batch) const {
     ScriptBatch one(batch, std::span(&s, 1));
     if (call(one, own)) continue;
     fault = own;
-    where = fmt::format("strand {}", batch.ids[s]);
+    where = name_of(batch.ids[s]);
     break;
   }
   const bool in_script = fault.line > 0;

@@ -5,20 +5,12 @@
 #include <cstring>
 #include <mutex>
 #include <string>
+#include <utility>
 
+#include <Python.h>
 #include <dlfcn.h>
-#include <pybind11/pybind11.h>
 
 #include "python/scripts/strand_function.h"
-
-namespace py = pybind11;
-
-/// Lives and dies with the interpreter's lock.
-struct PelageScript {
-  std::string path;
-  py::object module;  ///< scripts/strand_function.py
-  py::object script;  ///< its Script
-};
 
 namespace pelage {
 namespace {
@@ -73,65 +65,101 @@ class Locked {
   PyGILState_STATE state_;
 };
 
-/// Describes an exception of Python: its line in the script, its type and text.
-void describe(py::error_already_set& error, const py::object& module, const std::string& path,
-              PelageScriptFault* fault) {
-  try {
-    if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
-    const py::tuple described = module.attr("describe")(error.value(), path);
-    say(fault, described[0].cast<int>(), described[1].cast<std::string>());
-  } catch (const std::exception& unknown) {
-    say(fault, 0, unknown.what());
-  }
+/// Owns a reference to an object; null after an exception of Python. The thread holds the lock.
+class Object {
+ public:
+  explicit Object(PyObject* owned = nullptr) : object_(owned) {}
+  ~Object() { Py_XDECREF(object_); }
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  PyObject* get() const { return object_; }
+  explicit operator bool() const { return object_ != nullptr; }
+  PyObject* release() { return std::exchange(object_, nullptr); }
+
+ private:
+  PyObject* object_;
+};
+
+/// Returns the present exception as an object that has its traceback, and clears it.
+PyObject* take_exception() {
+  PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
+  PyErr_Fetch(&type, &value, &trace);
+  PyErr_NormalizeException(&type, &value, &trace);
+  if (value && trace) PyException_SetTraceback(value, trace);
+  Py_XDECREF(type);
+  Py_XDECREF(trace);
+  return value;
 }
 
-py::module_ helper() {
-  py::module_ module = py::reinterpret_steal<py::module_>(PyModule_New("pelage_strand_function"));
-  module.attr("__builtins__") = py::module_::import("builtins");
-  const py::object code = py::reinterpret_steal<py::object>(
-      Py_CompileString(kStrandFunction, "pelage/strand_function.py", Py_file_input));
-  if (!code) throw py::error_already_set();
-  const py::object dict = module.attr("__dict__");
-  const py::object done =
-      py::reinterpret_steal<py::object>(PyEval_EvalCode(code.ptr(), dict.ptr(), dict.ptr()));
-  if (!done) throw py::error_already_set();
-  return module;
+/// Describes the present exception: its line in the script, its type and text. `module`: the helper, or null.
+void describe(PyObject* module, const char* path, PelageScriptFault* fault) {
+  const Object error(take_exception());
+  say(fault, 0, "Python fails");
+  if (!error) return;
+  if (module) {
+    const Object described(PyObject_CallMethod(module, "describe", "Os", error.get(), path));
+    const char* text = nullptr;
+    int line = 0;
+    if (described && PyArg_ParseTuple(described.get(), "is", &line, &text)) return say(fault, line, text);
+  } else {
+    const Object text(PyObject_Str(error.get()));
+    const char* message = text ? PyUnicode_AsUTF8(text.get()) : nullptr;
+    if (message) say(fault, 0, std::string("Python cannot be used: ") + message);
+  }
+  PyErr_Clear();
+}
+
+/// Returns the module of strand_function.py, or null.
+PyObject* helper() {
+  Object module(PyModule_New("pelage_strand_function"));
+  if (!module || PyModule_AddObjectRef(module.get(), "__builtins__", PyEval_GetBuiltins()) != 0)
+    return nullptr;
+  const Object code(Py_CompileString(kStrandFunction, "pelage/strand_function.py", Py_file_input));
+  if (!code) return nullptr;
+  PyObject* names = PyModule_GetDict(module.get());
+  const Object done(PyEval_EvalCode(code.get(), names, names));
+  return done ? module.release() : nullptr;
 }
 
 template <class T>
-py::bytes bytes_of(const T* values, size_t count) {
-  return {reinterpret_cast<const char*>(values), count * sizeof(T)};
+bool add_bytes(PyObject* arrays, const char* name, const T* values, size_t count) {
+  const Object bytes(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values),
+                                               static_cast<Py_ssize_t>(count * sizeof(T))));
+  return bytes && PyDict_SetItemString(arrays, name, bytes.get()) == 0;
 }
 
-py::dict arrays_of(const PelageScriptBatch& batch) {
+/// Returns a dict of the arrays of a batch, or null.
+PyObject* arrays_of(const PelageScriptBatch& batch) {
   const size_t n = batch.strands, points = n * batch.points;
-  py::dict arrays;
-  arrays["ids"] = bytes_of(batch.ids, n);
-  arrays["positions"] = bytes_of(batch.positions, 3 * points);
-  arrays["widths"] = bytes_of(batch.widths, points);
-  arrays["colors"] = bytes_of(batch.colors, 3 * n * batch.color_rows);
-  arrays["roots"] = bytes_of(batch.roots, 3 * n);
-  arrays["frames"] = bytes_of(batch.frames, 9 * n);
-  arrays["rest_roots"] = bytes_of(batch.rest_roots, 3 * n);
-  arrays["rest_frames"] = bytes_of(batch.rest_frames, 9 * n);
-  arrays["uv"] = bytes_of(batch.uv, 2 * n);
-  arrays["clump"] = bytes_of(batch.clump, n);
-  return arrays;
+  Object arrays(PyDict_New());
+  PyObject* to = arrays.get();
+  const bool good =
+      to && add_bytes(to, "ids", batch.ids, n) && add_bytes(to, "positions", batch.positions, 3 * points) &&
+      add_bytes(to, "widths", batch.widths, points) &&
+      add_bytes(to, "colors", batch.colors, 3 * n * batch.color_rows) &&
+      add_bytes(to, "roots", batch.roots, 3 * n) && add_bytes(to, "frames", batch.frames, 9 * n) &&
+      add_bytes(to, "rest_roots", batch.rest_roots, 3 * n) &&
+      add_bytes(to, "rest_frames", batch.rest_frames, 9 * n) && add_bytes(to, "uv", batch.uv, 2 * n) &&
+      add_bytes(to, "clump", batch.clump, n);
+  return good ? arrays.release() : nullptr;
 }
 
-/// Copies bytes that have the size of `to`, which the helper has checked.
-void take(const py::object& bytes, float* to) {
-  if (bytes.is_none()) return;
-  char* data = nullptr;
-  py::ssize_t size = 0;
-  if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0) throw py::error_already_set();
-  std::memcpy(to, data, static_cast<size_t>(size));
+/// Copies bytes that have the size of `to`, which the helper has checked; None: keeps `to`.
+void take(PyObject* bytes, float* to) {
+  if (PyBytes_Check(bytes))
+    std::memcpy(to, PyBytes_AS_STRING(bytes), static_cast<size_t>(PyBytes_GET_SIZE(bytes)));
 }
 
 }  // namespace
 }  // namespace pelage
 
 using namespace pelage;
+
+struct PelageScript {
+  std::string path;
+  PyObject* module;  ///< strand_function.py
+  PyObject* script;  ///< its Script
+};
 
 int pelage_scripts_version() { return PELAGE_SCRIPTS_VERSION; }
 
@@ -142,45 +170,41 @@ PelageScript* pelage_script_open(const char* path, const char* source, const cha
     return nullptr;
   }
   const Locked lock;
-  py::object module;
-  try {
-    module = helper();
-    const py::object script = module.attr("Script")(path, py::bytes(source), function, arguments);
-    module.attr("flush")();
-    return new PelageScript{path, module, script};
-  } catch (py::error_already_set& error) {
-    if (module) {
-      describe(error, module, path, fault);
-    } else {
-      say(fault, 0, std::string("Python cannot be used: ") + error.what());
-    }
-  } catch (const std::exception& error) {
-    say(fault, 0, error.what());
+  Object module(helper());
+  Object script(module
+                    ? PyObject_CallMethod(module.get(), "Script", "syss", path, source, function, arguments)
+                    : nullptr);
+  if (!script) {
+    describe(module.get(), path, fault);
+    return nullptr;
   }
-  return nullptr;
+  return new PelageScript{path, module.release(), script.release()};
 }
 
 void pelage_script_close(PelageScript* script) {
   if (!Py_IsInitialized()) return;  // Python has ended, and freed everything
   const Locked lock;
+  Py_DECREF(script->script);
+  Py_DECREF(script->module);
   delete script;
 }
 
 int pelage_script_run(PelageScript* script, const PelageScriptBatch* batch, PelageScriptFault* fault) {
   const Locked lock;
-  try {
-    const py::tuple result =
-        script->script.attr("run")(batch->strands, batch->points, batch->color_rows,
-                                   batch->writes_colors != 0, batch->seed, batch->scale, arrays_of(*batch));
-    script->module.attr("flush")();
-    take(result[0], batch->new_positions);
-    take(result[1], batch->new_widths);
-    take(result[2], batch->new_colors);
-    return 0;
-  } catch (py::error_already_set& error) {
-    describe(error, script->module, script->path, fault);
-  } catch (const std::exception& error) {
-    say(fault, 0, error.what());
+  const Object arrays(arrays_of(*batch));
+  const Object result(
+      arrays ? PyObject_CallMethod(script->script, "run", "nnniKfO", static_cast<Py_ssize_t>(batch->strands),
+                                   static_cast<Py_ssize_t>(batch->points),
+                                   static_cast<Py_ssize_t>(batch->color_rows), batch->writes_colors,
+                                   static_cast<unsigned long long>(batch->seed),
+                                   static_cast<double>(batch->scale), arrays.get())
+             : nullptr);
+  if (!result) {
+    describe(script->module, script->path.c_str(), fault);
+    return 1;
   }
-  return 1;
+  take(PyTuple_GET_ITEM(result.get(), 0), batch->new_positions);
+  take(PyTuple_GET_ITEM(result.get(), 1), batch->new_widths);
+  take(PyTuple_GET_ITEM(result.get(), 2), batch->new_colors);
+  return 0;
 }

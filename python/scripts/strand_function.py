@@ -58,6 +58,7 @@ class Script:
             names = [name for name, value in vars(module).items() if isinstance(value, types.FunctionType)]
             near = difflib.get_close_matches(function, names, 1)
             raise Refused(f"has no function {function!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+        flush()
         self.function = found
         self.arguments = json.loads(arguments)
 
@@ -65,6 +66,7 @@ class Script:
         """Calls the function. Returns the bytes of points, widths and colours, each None if not returned."""
         batch = Batch(strands, points, color_rows, seed, scale, arrays)
         result = self.function(batch, **self.arguments)
+        flush()
         if isinstance(result, numpy.ndarray):
             result = {"points": result}
         if not isinstance(result, dict):

@@ -45,6 +45,16 @@ class Examples(unittest.TestCase):
             exec(compile(small, "PYTHON.md", "exec"), {})  # the guide is ours
         self.assertEqual(len(list(self.folder.glob("*.jpg"))), 1)
 
+    def test_the_guide_draws_a_figure_in_ten_lines(self):
+        text = (SOURCE / "docs/PYTHON.md").read_text(encoding="utf-8")
+        code = re.search(r"```python\n(import matplotlib.*?)```", text, re.DOTALL).group(1)
+        self.assertLessEqual(len(code.splitlines()), 10)
+        small = code.replace(', 63)', ', 7)').replace(', 121)', ', 9)').replace(', 25)', ', 3)').replace(', "chiang", "yan-fast", "yan"]', ']')
+        self.assertNotEqual(small, code)
+        with contextlib.chdir(self.folder):
+            exec(compile(small, "PYTHON.md", "exec"), {})  # the guide is ours
+        self.assertTrue((self.folder / "models.png").is_file())
+
 
 if __name__ == "__main__":
     unittest.main()

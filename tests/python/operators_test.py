@@ -40,6 +40,9 @@ def fail(strands):
         return 1 / 0
     return strands.points
 
+def stop(strands):
+    raise SystemExit(1)
+
 def wrong(strands, what):
     return {"none": None, "shape": strands.points[:, 1:], "text": np.array(["a"]), "name": {"pionts": 1},
             "color": {"color": strands.roots}, "nan": strands.points * [np.nan, 1, 1]}[what]
@@ -166,6 +169,12 @@ class Operators(unittest.TestCase):
         self.assertEqual(refused.returncode, 3)
         self.assertRegex(refused.stderr, r"scene.yaml:1:\d+: 'python' runs a script .*--allow-scripts")
         subprocess.run([*command, "--allow-scripts"], check=True, env=env)
+        # Threads that fail at the same time do not wait for each other.
+        failed = subprocess.run([*command, "--allow-scripts", "--threads", "4", "--set", "grooms.coat.strands=4000", "--set",
+                                 "grooms.coat.operators.python.function=stop"],
+                                capture_output=True, text=True, check=False, env=env, timeout=60)
+        self.assertEqual(failed.returncode, 3)
+        self.assertRegex(failed.stderr, r"my_operator.py:\d+: SystemExit: 1, in stop\(\) for (strand|the clump centre) \d+ of groom 'coat'")
         here = pelage.open(scene, allow_scripts=True).grow("coat")
         self.assertTrue(np.array_equal(pelage.read_strands(strands).points, here.points))
 
