@@ -53,9 +53,11 @@ def measure(
     import subprocess
     import tempfile
 
+    what = [text(experiment, "experiment"), file_path(scene, "scene")]
+    values = changes(mapping(set, "set"))
     with tempfile.TemporaryDirectory(prefix="pelage-") as folder:
-        command = [program(), "measure", text(experiment, "experiment"), file_path(scene, "scene"), "-o", folder, "--quiet"]
-        for key, value in changes(mapping(set, "set")).items():
+        command = [program(), "measure", *what, "-o", folder, "--quiet"]
+        for key, value in values.items():
             command += ["--set", f"{key}={_yaml(value)}"]
         for name, value in options.items():
             argument = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
