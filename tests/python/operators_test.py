@@ -66,6 +66,12 @@ class Operators(unittest.TestCase):
     def scene(self, function="sway", allow_scripts=True, **keys):
         return pelage.Scene(self.values(function, **keys), allow_scripts=allow_scripts)
 
+    def error_of(self, values, **keys):
+        values["grooms"]["coat"]["operators"][-1]["python"].update(keys)
+        with self.assertRaises(pelage.Error) as caught:
+            pelage.Scene(values, allow_scripts=True).grow("coat")
+        return caught.exception
+
     def error(self, *arguments, **keys):
         with self.assertRaises(pelage.Error) as caught:
             self.scene(*arguments, **keys).grow("coat")
@@ -121,14 +127,26 @@ class Operators(unittest.TestCase):
         self.module.unlink()
         self.assertIn("my_operator.py", str(self.error()))
 
-    def test_pixels_depend_on_neither_threads_nor_leaves(self):
+    def test_pixels_depend_on_neither_threads_nor_leaves_nor_bounds(self):
         values = self.values()
         values["render"]["lod"] = {"enabled": True}
         one = pelage.Scene(values, threads=1, allow_scripts=True).render()
         values["grooms"]["coat"]["leaf_strands"] = 64
+        values["render"]["bounds"] = "conservative"
         many = pelage.Scene(values, threads=4, allow_scripts=True).render()
         self.assertTrue(same_layers(one, many))
         self.assertFalse(same_layers(one, pelage.Scene(scene_values()).render()))
+
+    def test_a_function_in_a_pose_sees_the_scale(self):
+        self.module.write_text("def check(strands):\n    assert strands.scale == 2\n"
+                               "    return strands.points + 0.2 * strands.along[:, None] * strands.frames[:, 2][:, None]\n")
+        plain, posed = scene_values(), self.values("check", space="pose")
+        for values in (plain, posed):
+            values["characters"]["one"]["transform"] = {"scale": 2}
+        before, after = (pelage.Scene(v, allow_scripts=True).grow("coat") for v in (plain, posed))
+        moved = np.linalg.norm(after.points - before.points, axis=1).reshape(-1, 5)
+        self.assertLess(np.abs(moved - 0.2 * np.linspace(0, 1, 5)).max(), 1e-5)
+        self.assertIn("moves point 4 by 0.1, farther than `bound: 0.09`", str(self.error_of(posed, bound=0.09)))
 
     def test_callbacks_and_functions_share_the_lock(self):
         pictures = []
@@ -168,7 +186,7 @@ class Operators(unittest.TestCase):
         refused = subprocess.run(command, capture_output=True, text=True, check=False, env=env)
         self.assertEqual(refused.returncode, 3)
         self.assertRegex(refused.stderr, r"scene.yaml:1:\d+: 'python' runs a script .*--allow-scripts")
-        subprocess.run([*command, "--allow-scripts"], check=True, env=env)
+        subprocess.run([*command, "--allow-scripts"], check=True, env=env, capture_output=True)
         # Threads that fail at the same time do not wait for each other.
         failed = subprocess.run([*command, "--allow-scripts", "--threads", "4", "--set", "grooms.coat.strands=4000", "--set",
                                  "grooms.coat.operators.python.function=stop"],
