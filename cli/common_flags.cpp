@@ -40,6 +40,11 @@ void add_scene_flags(CLI::App& command, RunOptions& options, RunTexts& texts, co
       ->type_name("KEY=VALUE");
 }
 
+void add_script_flag(CLI::App& command, RunOptions& options) {
+  command.add_flag("--allow-scripts", options.allow_scripts,
+                   "Run the Python functions of operators `python`; they may do whatever you may do");
+}
+
 void add_thread_flags(CLI::App& command, RunOptions& options, RunTexts& texts) {
   command.add_option("--threads", options.threads, "Number of threads (default: all available)")
       ->check(CLI::Range(0, 4096))

@@ -26,6 +26,8 @@ inline constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (s
 /// Adds SCENE and --set.
 void add_scene_flags(CLI::App& command, RunOptions& options, RunTexts& texts,
                      const char* scene_help = "Scene file");
+/// Adds --allow-scripts, for commands that grow coats.
+void add_script_flag(CLI::App& command, RunOptions& options);
 /// Adds --threads, --quiet and --progress.
 void add_thread_flags(CLI::App& command, RunOptions& options, RunTexts& texts);
 /// Adds --memory and the flags of add_thread_flags().

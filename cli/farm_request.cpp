@@ -23,6 +23,7 @@ FarmRequest request_of(const Options& options, const SceneDescription& scene) {
   }
   if (!options.rib_in.materials.empty())
     request.arguments.insert(request.arguments.end(), {"--materials", options.rib_in.materials});
+  if (options.allow_scripts) request.arguments.emplace_back("--allow-scripts");
   if (options.rib_in.allow_procedurals) request.arguments.emplace_back("--allow-procedurals");
   request.frames = scene.frames.frames;
   request.output = options.output;

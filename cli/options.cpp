@@ -47,6 +47,7 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
   add_scene_flags(*render, options, texts);
   add_rib_use_flags(*render, options.rib_in);
+  add_script_flag(*render, options);
   render
       ->add_option("-o,--output", options.output,
                    "Output file (default: the scene's name and .exr); .png and .jpg hold the beauty as a "
@@ -67,6 +68,7 @@ void add_view(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* view = app.add_subcommand(
       "view", "Show a picture in the browser that refines while you look and follows the scene's files");
   add_scene_flags(*view, options, texts);
+  add_script_flag(*view, options);
   view->add_option("--port", options.port, "Port of the page (default: any free port)")
       ->check(CLI::Range(1, 65535))
       ->type_name("N");
@@ -84,6 +86,7 @@ void add_why(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* why = app.add_subcommand("why", "Explain a pixel: its strand, material, light and cost");
   add_scene_flags(*why, options, texts);
   add_rib_use_flags(*why, options.rib_in);
+  add_script_flag(*why, options);
   why->add_option("X", options.pixel_x, "Column of the pixel; 0 is the leftmost")
       ->required()
       ->check(whole_number());
@@ -103,6 +106,7 @@ void add_simulate(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* simulate = app.add_subcommand(
       "simulate", "Simulate the motion of coats with `dynamics` and store it for the other commands");
   add_scene_flags(*simulate, options, texts);
+  add_script_flag(*simulate, options);
   simulate
       ->add_option("--frames", texts.frames,
                    "Frames to make: 1-48. Earlier frames are read or simulated first")
@@ -121,6 +125,7 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
       "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
   add_scene_flags(*grow, options, texts);
   add_rib_use_flags(*grow, options.rib_in);
+  add_script_flag(*grow, options);
   CLI::Option* file =
       grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
           ->type_name("FILE");
@@ -182,6 +187,7 @@ void add_merge(CLI::App& app, Options& options, Texts& texts) {
 void add_rib(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* rib = app.add_subcommand("rib", "Write a scene as RIB for a RenderMan-compliant renderer");
   add_scene_flags(*rib, options, texts);
+  add_script_flag(*rib, options);
   rib->add_option("-o,--output", options.output,
                   "File to write (.rib, or .rib.gz for a compressed file); %04d is the frame number")
       ->required()
@@ -201,6 +207,7 @@ void add_farm(CLI::App& app, Options& options, Texts& texts) {
   add_farm_flags(*farm, options.farm, texts.farm);
   add_scene_flags(*farm, options, texts, "Scene file; for status and cancel, the folder of the shot (--dir)");
   add_rib_use_flags(*farm, options.rib_in);
+  add_script_flag(*farm, options);
   farm->add_option("-o,--output", options.output, "Output file; %04d is the frame number")
       ->type_name("FILE.%04d.exr");
   farm->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/read_scene.h"
 
+#include "groom/operators/operator_scripts.h"
+
 namespace pelage {
 
 SceneDescription read_scene(const RunOptions& options, Progress& progress) {
@@ -12,6 +14,7 @@ SceneDescription read_scene(const RunOptions& options, Progress& progress, const
   for (const Problem& warning : scene.warnings)
     progress.warn(to_string(warning.position) + ": " + warning.message);
   scene.growth_cache = growth_cache(options);
+  if (options.allow_scripts) scene.scripts = python_scripts();
   return scene;
 }
 

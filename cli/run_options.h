@@ -40,6 +40,7 @@ struct RunOptions {
   bool cache = false;  ///< whether to use the user's cache of growth: true for commands that have --no-cache,
                        ///< without it
   uint64_t cache_bytes = GrowthCache::kMaxBytes;  ///< --cache-size
+  bool allow_scripts = false;                     ///< --allow-scripts
   RibUseOptions rib_in;                           ///< flags for RIB files that the scene reads
 };
 

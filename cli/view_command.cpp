@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/signals.h"
+#include "groom/operators/operator_scripts.h"
 #include "view/run_view.h"
 
 namespace pelage {
@@ -17,6 +18,7 @@ int run_view(const Options& options) {
   view.overrides = options.overrides;
   view.threads = options.threads;
   view.growth_cache = growth_cache(options);
+  if (options.allow_scripts) view.scripts = python_scripts();
   view.port = options.port;
   if (!options.bind.empty()) view.address = options.bind;
   if (view.address != "127.0.0.1") {

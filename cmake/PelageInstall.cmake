@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   base/error.h base/schema.h base/stop_switch.h base/stopwatch.h base/version.h
   image/exr.h
-  geom/strands.h geom/curve_bounds.h geom/io/host_geometry.h geom/io/strand_file.h geom/io/strand_reader.h
+  geom/strands.h geom/curve_bounds.h geom/io/host_geometry.h image/host_image.h geom/io/strand_file.h geom/io/strand_reader.h
   procedurals/fixed_strands.h
   render/fibre/fibre_material.h render/frame/frame_saver.h render/frame/frame_watch.h render/material/material.h
   post/pelage_post.h

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "base/nearest_name.h"
 #include "groom/cache/growth_cache.h"
 #include "groom/groom_impl.h"
 #include "groom/operators/width.h"
@@ -82,6 +83,18 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
     throw Error(ErrorKind::kInput, problem->position, problem->message);
 }
 
+/// A script may do whatever the user may do, and a scene may come from a stranger.
+void refuse_scripts(const OperatorList& list) {
+  Problems problems;
+  for (const OperatorList::Item& item : list.items) {
+    if (!item.prototype->traits().runs_script) continue;
+    problems.add(item.position, quote(item.name) +
+                                    " runs a script of the scene, which may do whatever you may do; the flag "
+                                    "--allow-scripts (in Python, allow_scripts=True) allows it");
+  }
+  problems.throw_if_any();
+}
+
 /// Grown strands have a width even if no operator sets one everywhere.
 OperatorList with_width(const GroomParams& params) {
   OperatorList list = params.operators;
@@ -113,8 +126,9 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
                                            std::shared_ptr<const LimitSurface> rest,
                                            const FieldSources& sources, const Job& job, const Groom* previous,
-                                           const GrowthCache* growth_cache) {
+                                           const GrowthCache* growth_cache, const OperatorScripts* scripts) {
   check_combination(name, params, rest != nullptr);
+  if (!scripts) refuse_scripts(params.operators);
   const std::string owner = "groom '" + name + "'";
   auto impl = std::make_unique<Impl>();
   impl->role = params.role;
@@ -144,6 +158,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   PrepareContext context{impl->source.rest.get(),           sources,       job, {},
                          hash64(seed, random_use("groom")), params.points, {}};
   context.owner = owner;
+  context.scripts = scripts;
   impl->operator_seed = context.seed;
   if (!impl->source.rest) context.textures.skin = nullptr;
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get(), context.textures.skin);

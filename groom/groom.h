@@ -21,6 +21,7 @@
 namespace pelage {
 
 class GrowthCache;
+class OperatorScripts;
 struct FieldSources;
 struct GroomCacheReport;
 struct MovingGuides;
@@ -92,12 +93,14 @@ class Groom {
   /// does not stop growing; it is reported as a warning to the job's progress.
   ///
   /// `previous`, if not null: a groom whose follicles are shared if they are the same. `growth_cache`, if not
-  /// null: where follicles are kept between runs. Neither is used with a cache in `params`.
+  /// null: where follicles are kept between runs. Neither is used with a cache in `params`. `scripts`: runs
+  /// the functions of operators `python`; null: a groom with such an operator is an error.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
                                              const FieldSources& sources, const Job& job,
                                              const Groom* previous = nullptr,
-                                             const GrowthCache* growth_cache = nullptr);
+                                             const GrowthCache* growth_cache = nullptr,
+                                             const OperatorScripts* scripts = nullptr);
   ~Groom();
   /// Returns the coat as it moves in a frame. It shares everything but the motion.
   std::shared_ptr<const Groom> moved(std::shared_ptr<const CoatMotion> motion) const;

@@ -54,6 +54,7 @@ std::vector<AssetPath> Field::maps(bool by_texture) const {
 std::vector<std::filesystem::path> Field::files() const {
   std::vector<std::filesystem::path> files;
   for (const AssetPath& map : maps()) {
+    if (map.data) continue;
     const std::vector<std::filesystem::path> tiles = map_files(map.path);
     files.insert(files.end(), tiles.begin(), tiles.end());
   }

@@ -126,9 +126,9 @@ std::string MapNode::print() const {
 
 std::shared_ptr<const Field::Node> MapNode::with_textures(const FieldSources& sources) const {
   auto loaded = std::make_shared<MapNode>(form);
-  loaded->tiled = has_tiles(form.map.path);
+  loaded->tiled = !form.map.data && has_tiles(form.map.path);
   const auto load = [&](const std::filesystem::path& file) {
-    Tile tile = load_tile(form, {file, form.map.position}, sources.textures);
+    Tile tile = load_tile(form, {file, form.map.position, form.map.data}, sources.textures);
     const auto [low, high] = tile.texture->range(tile.channel);
     const bool first = loaded->tiles.empty() && !loaded->whole.texture;
     loaded->lowest = first ? low : std::min(loaded->lowest, low);

@@ -20,6 +20,7 @@
 #include "base/memory_sample.h"
 #include "base/value_readers.h"
 #include "image/exr_check.h"
+#include "image/host_image.h"
 #include "image/image_reader.h"
 #include "image/plain_png.h"
 #include "image/radiance_hdr.h"
@@ -235,6 +236,7 @@ std::shared_ptr<TileCache> TextureLibrary::tile_cache() {
 const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
                                                      const std::filesystem::path& path) {
   if (const auto found = stored_.find(path); found != stored_.end()) return found->second;
+  if (asset.data) return shared(asset);
   check_image_file(asset);
   const FileStamp stamp = file_stamp(path);
   TextureSink intake(*this, asset);
@@ -259,6 +261,19 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
   }
 }
 
+const TextureLibrary::Stored& TextureLibrary::shared(const AssetPath& asset) {
+  const auto* image = dynamic_cast<const HostImage*>(asset.data.get());
+  if (!image) throw Error(ErrorKind::kInput, asset.position, "expected an image, got " + asset.path.string());
+  TextureSink intake(*this, asset);
+  try {
+    image->read(intake);
+    return stored_.emplace(asset.path, intake.finish()).first->second;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kStopped) throw;
+    rethrow_at(asset, error);
+  }
+}
+
 template <class IsOld>
 void TextureLibrary::forget(const IsOld& is_old) {
   for (auto image = stored_.begin(); image != stored_.end();) {
@@ -276,8 +291,9 @@ void TextureLibrary::forget(const IsOld& is_old) {
 
 void TextureLibrary::forget_changed() {
   const std::lock_guard lock(mutex_);
-  forget(
-      [](const std::filesystem::path& path, const Stored& image) { return image.stamp != file_stamp(path); });
+  forget([](const std::filesystem::path& path, const Stored& image) {
+    return path.is_absolute() && image.stamp != file_stamp(path);  // images of a host never change
+  });
 }
 
 void TextureLibrary::forget_unused() {
@@ -290,7 +306,8 @@ void TextureLibrary::forget_unused() {
 }
 
 std::shared_ptr<const Texture> TextureLibrary::load(const AssetPath& asset, ColorSpace space) {
-  const std::filesystem::path path = std::filesystem::absolute(asset.path).lexically_normal();
+  const std::filesystem::path path =
+      asset.data ? asset.path : std::filesystem::absolute(asset.path).lexically_normal();
   const std::lock_guard lock(mutex_);
   const Stored& file = stored(asset, path);
   const bool srgb = space == ColorSpace::kSrgb || (space == ColorSpace::kAuto && file.is_integer);

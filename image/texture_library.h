@@ -42,11 +42,11 @@ class TextureLibrary {
   explicit TextureLibrary(MemoryLedger& ledger, Progress* progress = nullptr);
   ~TextureLibrary();
 
-  /// Returns the texture of a file. Reads the file if this library has not read it yet. Throws Error: kInput
-  /// when the file is missing, damaged or has non-finite values (there is no black default texture), kMemory
-  /// (before any pixel is read) when the image does not fit the ledger's limit, kFailed when the temporary
-  /// file or the module fails, kStopped once the user has asked to stop. Except for kStopped, the error has
-  /// the position `asset.position` and names the file.
+  /// Returns the texture of a file, or of an image of the host (image/host_image.h). Reads the file if this
+  /// library has not read it yet. Throws Error: kInput when the file is missing, damaged or has non-finite
+  /// values (there is no black default texture), kMemory (before any pixel is read) when the image does not
+  /// fit the ledger's limit, kFailed when the temporary file or the module fails, kStopped once the user has
+  /// asked to stop. Except for kStopped, the error has the position `asset.position` and names the file.
   std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
 
   /// Forgets the images whose files have changed, so that load() reads them again. Textures that are in use
@@ -74,6 +74,7 @@ class TextureLibrary {
   template <class IsOld>
   void forget(const IsOld& is_old);
   const Stored& stored(const AssetPath& asset, const std::filesystem::path& path);
+  const Stored& shared(const AssetPath& asset);  // an image of the host
   const ImageReader& reader();
   std::shared_ptr<TileCache> tile_cache();
 

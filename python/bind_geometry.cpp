@@ -9,6 +9,7 @@
 #include "geom/io/obj_file.h"
 #include "geom/io/strand_file.h"
 #include "groom/coat/groom_params.h"
+#include "image/host_image.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 
@@ -126,6 +127,15 @@ std::shared_ptr<HostPoses> make_poses(const InputArray<float>& points) {
   return std::const_pointer_cast<HostPoses>(share_poses(std::move(poses)));
 }
 
+/// `pixels`: (height, width, channels) of `T`.
+template <class T>
+std::shared_ptr<HostImage> make_image(const InputArray<T>& pixels, TexelKind kind) {
+  const auto bytes = std::as_bytes(std::span(pixels.data(), static_cast<size_t>(pixels.size())));
+  const TexelLayout layout{static_cast<int>(pixels.shape(1)), static_cast<int>(pixels.shape(0)),
+                           static_cast<int>(pixels.shape(2)), kind};
+  return std::const_pointer_cast<HostImage>(share_image(layout, {bytes.begin(), bytes.end()}));
+}
+
 StrandsPointer read_strands_of(const std::filesystem::path& path, const std::string& basis, float width) {
   StrandReadOptions options;
   if (!basis.empty()) options.basis = basis_of(basis);
@@ -189,6 +199,11 @@ void bind_geometry(py::module_& module) {
         const auto& corners = m->mesh().face_vertices;
         return view_of(m, corners.data(), {size_of(corners.size())}, {sizeof(uint32_t)});
       });
+  py::class_<HostImage, std::shared_ptr<HostImage>>(module, "ImageData")
+      .def_property_readonly("name", &HostImage::name);
+  module.def("make_image8", [](const InputArray<uint8_t>& p) { return make_image(p, TexelKind::kU8); });
+  module.def("make_image16", [](const InputArray<uint16_t>& p) { return make_image(p, TexelKind::kU16); });
+  module.def("make_image", [](const InputArray<float>& p) { return make_image(p, TexelKind::kFloat); });
   py::class_<HostPoses, std::shared_ptr<HostPoses>>(module, "PoseData");
   module.def("make_poses", make_poses);
   module.def("make_mesh", make_mesh);

@@ -37,6 +37,21 @@ class PassView {
     return *film_;
   }
 
+  /// Names of all layers.
+  std::vector<std::string> names() const {
+    std::vector<std::string> channels, names;
+    film().exr_pixels({0, 0, 0, 0}, [&](const std::string& channel) {
+      channels.push_back(channel);
+      return false;
+    });
+    for (const std::string& channel : channels) {
+      const std::string layer = layer_of(channel, channels);
+      if (std::find(names.begin(), names.end(), layer) == names.end()) names.push_back(layer);
+    }
+    return names;
+  }
+
+  /// The layers of these names, which names() must have; all without names.
   py::dict layers(const std::optional<std::vector<std::string>>& wanted) const {
     const Film& shown = film();
     const PixelBox all{0, 0, shown.width(), shown.height()};
@@ -112,8 +127,8 @@ class PythonWatch final : public FrameWatch {
 class Session {
  public:
   template <class Source>
-  Session(const Source& source, const std::vector<Override>& changes, int threads)
-      : session_(source, changes, threads) {}
+  Session(const Source& source, const std::vector<Override>& changes, int threads, bool allow_scripts)
+      : session_(source, changes, threads, allow_scripts ? ScriptUse::kAllowed : ScriptUse::kRefused) {}
 
   SceneSession& operator*() { return session_; }
   SceneSession* operator->() { return &session_; }
@@ -230,6 +245,7 @@ py::dict names_of(SceneSession& session) {
 void bind_scene(py::module_& module) {
   py::class_<PassView, std::shared_ptr<PassView>>(module, "PassView")
       .def("layers", &PassView::layers)
+      .def_property_readonly("names", &PassView::names)
       .def_property_readonly("samples", [](const PassView& v) { return v.state().samples; })
       .def_property_readonly("mean_samples", [](const PassView& v) { return v.state().mean_samples; })
       .def_property_readonly("grid", [](const PassView& v) { return v.state().grid; })
@@ -246,11 +262,13 @@ void bind_scene(py::module_& module) {
            })
       .def_property_readonly("warnings", [](Session& s) { return warnings_of(*s); })
       .def_property_readonly("names", [](Session& s) { return names_of(*s); });
-  module.def("open_scene", [](const std::filesystem::path& path, const py::dict& changes, int threads) {
-    return std::make_shared<Session>(path, to_overrides(changes), threads);
-  });
-  module.def("make_scene", [](const py::dict& document, const py::dict& changes, int threads) {
-    return std::make_shared<Session>(to_value(document, ""), to_overrides(changes), threads);
+  module.def("open_scene",
+             [](const std::filesystem::path& path, const py::dict& changes, int threads, bool allow_scripts) {
+               return std::make_shared<Session>(path, to_overrides(changes), threads, allow_scripts);
+             });
+  module.def("make_scene", [](const py::dict& document, const py::dict& changes, int threads,
+                              bool allow_scripts) {
+    return std::make_shared<Session>(to_value(document, ""), to_overrides(changes), threads, allow_scripts);
   });
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "python/errors.h"
 
+#include <pybind11/stl.h>
+
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace py = pybind11;
 
@@ -38,7 +41,10 @@ void set_error(const Error& error) {
 
 }  // namespace
 
-void register_errors(py::module_&) {
+void register_errors(py::module_& module) {
+  module.def("suggest", [](const std::string& name, const std::vector<std::string>& names) {
+    return suggest(name, names);
+  });
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -5,7 +5,8 @@
 
 namespace pelage {
 
-/// Turns pelage::Error into pelage.Error of the package, which has the problems with their positions.
+/// Turns pelage::Error into pelage.Error of the package, which has the problems with their positions. Adds
+/// suggest(), see base/nearest_name.h.
 void register_errors(pybind11::module_& module);
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "geom/io/host_geometry.h"
+#include "image/host_image.h"
 
 namespace py = pybind11;
 
@@ -31,6 +32,8 @@ Value to_value(py::handle object, const std::string& path, int depth) {
     return Value::host(position, object.cast<std::shared_ptr<HostMesh>>());
   if (py::isinstance<HostPoses>(object))
     return Value::host(position, object.cast<std::shared_ptr<HostPoses>>());
+  if (py::isinstance<HostImage>(object))
+    return Value::host(position, object.cast<std::shared_ptr<HostImage>>());
   if (py::isinstance<HostStrands>(object))
     return Value::host(position, object.cast<std::shared_ptr<HostStrands>>());
   if (py::isinstance<py::list>(object)) {

@@ -12,8 +12,8 @@
 namespace pelage {
 
 /// Converts what pelage/_values.py makes of a value of the user: None, str, list, dict with keys of type str,
-/// MeshData, PoseData or StrandData. `path`: keys that lead to the value; the position of the result. Throws
-/// pybind11::type_error for anything else, and for nesting deeper than 64.
+/// MeshData, PoseData, ImageData or StrandData. `path`: keys that lead to the value; the position of the
+/// result. Throws pybind11::type_error for anything else, and for nesting deeper than 64.
 Value to_value(pybind11::handle object, const std::string& path, int depth = 0);
 
 /// Converts a dict from keys "a.b.c" to such values.

@@ -17,7 +17,8 @@ void run_live_view(const ViewOptions& options, const std::function<void(const st
   const SceneCommands commands(options.scene, options.overrides, state, is_local);
   const ViewServer server(state, commands, options.address, options.port);
   LiveRenderer renderer(state, options.threads);
-  const SceneFollower follower(options.scene, options.overrides, renderer, state, options.growth_cache);
+  const SceneFollower follower(options.scene, options.overrides, renderer, state, options.growth_cache,
+                               options.scripts);
   ready(server.url());
   while (!stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }

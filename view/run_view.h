@@ -12,6 +12,7 @@
 namespace pelage {
 
 class GrowthCache;
+class OperatorScripts;
 
 struct ViewOptions {
   std::filesystem::path scene;
@@ -20,6 +21,7 @@ struct ViewOptions {
   int port = 0;                                     ///< 0: any free port
   int threads = 0;                                  ///< of the render; 0: all available
   std::shared_ptr<const GrowthCache> growth_cache;  ///< SceneDescription::growth_cache
+  std::shared_ptr<const OperatorScripts> scripts;   ///< SceneDescription::scripts
 };
 
 /// Shows a live picture of a scene to browsers, until `stopped` returns true. `stopped` is called 50 times a

@@ -41,10 +41,12 @@ ViewCamera camera_of(const SceneDescription& scene, bool moved) {
 
 SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> overrides,
                              LiveRenderer& renderer, ViewState& state,
-                             std::shared_ptr<const GrowthCache> growth_cache)
+                             std::shared_ptr<const GrowthCache> growth_cache,
+                             std::shared_ptr<const OperatorScripts> scripts)
     : path_(std::move(scene)),
       overrides_(std::move(overrides)),
       growth_cache_(std::move(growth_cache)),
+      scripts_(std::move(scripts)),
       renderer_(renderer),
       state_(state) {
   files_ = {path_};
@@ -146,6 +148,7 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   const FileStamps before = stamps_of(files_);
   SceneDescription scene = load_shown();
   scene.growth_cache = growth_cache_;
+  scene.scripts = scripts_;
   FileStamps stamps = stamps_of(followed_files(scene));
   state_.update([&](ViewStatus& status) {
     status.camera = camera_of(scene, camera_.has_value());

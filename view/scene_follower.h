@@ -20,10 +20,11 @@ namespace pelage {
 /// frame, the edits have this frame alone, until the scene has it no more.
 class SceneFollower {
  public:
-  /// Reads the scene and submits it. `growth_cache`: SceneDescription::growth_cache of all edits. Throws the
-  /// errors of load_scene().
+  /// Reads the scene and submits it. `growth_cache`, `scripts`: members of SceneDescription, of all edits.
+  /// Throws the errors of load_scene().
   SceneFollower(std::filesystem::path scene, std::vector<Override> overrides, LiveRenderer& renderer,
-                ViewState& state, std::shared_ptr<const GrowthCache> growth_cache = {});
+                ViewState& state, std::shared_ptr<const GrowthCache> growth_cache = {},
+                std::shared_ptr<const OperatorScripts> scripts = {});
   ~SceneFollower();
   SceneFollower(const SceneFollower&) = delete;
   SceneFollower& operator=(const SceneFollower&) = delete;
@@ -40,6 +41,7 @@ class SceneFollower {
   const std::filesystem::path path_;
   const std::vector<Override> overrides_;
   const std::shared_ptr<const GrowthCache> growth_cache_;
+  const std::shared_ptr<const OperatorScripts> scripts_;
   LiveRenderer& renderer_;
   ViewState& state_;
   FileWatch watch_;

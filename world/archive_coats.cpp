@@ -53,6 +53,7 @@ std::shared_ptr<const ArchiveScene> open_scene(const std::filesystem::path& path
   scene.camera.shutter = picture.camera.shutter;
   scene.render.memory = picture.render.memory;
   scene.growth_cache = picture.growth_cache;
+  scene.scripts = picture.scripts;
   opened->assets = load_assets(scene, job);
   return opened;
 }

@@ -154,9 +154,10 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,
                                         const FieldSources& sources, const Job& job, const Groom* previous,
-                                        const GrowthCache* growth_cache) {
+                                        const SceneDescription& scene) {
   try {
-    auto groom = Groom::create(name, params, rest, sources, job, previous, growth_cache);
+    auto groom = Groom::create(name, params, rest, sources, job, previous, scene.growth_cache.get(),
+                               scene.scripts.get());
     if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
       job.progress.warn(fmt::format("{}: groom '{}' grows nothing, because all faces of skin '{}' are holes",
                                     to_string(position), name, params.skin.name));
@@ -263,7 +264,7 @@ void update_grooms(const SceneDescription& scene, const std::map<std::string, Co
     const std::optional<SkinFields> fields = skin_fields(assets, params.skin.name, job);
     std::shared_ptr<const Groom>& groom = assets.grooms[name];
     groom = make_groom(name, position, params, rest, {assets.textures, fields ? &*fields : nullptr}, job,
-                       groom.get(), scene.growth_cache.get());
+                       groom.get(), scene);
     assets.groom_keys[name] = keys.at("grooms." + name);
   }
 }

@@ -27,6 +27,7 @@
 namespace pelage {
 
 class GrowthCache;
+class OperatorScripts;
 
 // The contents of a scene file as one struct. docs/MANUAL.md describes the keys. Structs of blocks that
 // belong to another folder, such as render/, are declared there.
@@ -141,6 +142,9 @@ struct SceneDescription {
   std::vector<Problem> warnings;
   /// Where coats keep follicles between runs; null: nowhere. Set by the program, not by the document.
   std::shared_ptr<const GrowthCache> growth_cache;
+  /// Runs the scripts of operators; null: a scene with such operators is an error. Set by the program, not by
+  /// the document.
+  std::shared_ptr<const OperatorScripts> scripts;
   static const Schema<SceneDescription>& schema();
 };
 

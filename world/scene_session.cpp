@@ -3,6 +3,7 @@
 
 #include "base/process_usage.h"
 #include "base/stopwatch.h"
+#include "groom/operators/operator_scripts.h"
 #include "rib/document/rib_document.h"
 #include "scene/overrides.h"
 #include "scene/renamed_keys.h"
@@ -10,13 +11,25 @@
 #include "world/grow_coat.h"
 
 namespace pelage {
+namespace {
+
+std::shared_ptr<const OperatorScripts> scripts_for(ScriptUse use) {
+  return use == ScriptUse::kAllowed ? python_scripts() : nullptr;
+}
+
+}  // namespace
 
 SceneSession::SceneSession(const std::filesystem::path& path, const std::vector<Override>& changes,
-                           int threads)
-    : workers_(threads), document_(changed(read_file(path), changes)), scene_(checked(document_)) {}
+                           int threads, ScriptUse scripts)
+    : scripts_(scripts_for(scripts)),
+      workers_(threads),
+      document_(changed(read_file(path), changes)),
+      scene_(checked(document_)) {}
 
-SceneSession::SceneSession(Value document, const std::vector<Override>& changes, int threads)
-    : workers_(threads),
+SceneSession::SceneSession(Value document, const std::vector<Override>& changes, int threads,
+                           ScriptUse scripts)
+    : scripts_(scripts_for(scripts)),
+      workers_(threads),
       document_(changed({std::move(document), {}, {}}, changes)),
       scene_(checked(document_)) {}
 
@@ -35,9 +48,10 @@ SceneSession::Document SceneSession::read_file(const std::filesystem::path& path
   return {std::move(*root), {}, std::move(renamed.warnings)};
 }
 
-std::shared_ptr<const SceneDescription> SceneSession::checked(const Document& document) {
+std::shared_ptr<const SceneDescription> SceneSession::checked(const Document& document) const {
   SceneDescription scene = make_scene(document.root, document.frames);
   scene.warnings.insert(scene.warnings.begin(), document.warnings.begin(), document.warnings.end());
+  scene.scripts = scripts_;
   return std::make_shared<const SceneDescription>(std::move(scene));
 }
 

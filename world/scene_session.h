@@ -22,6 +22,9 @@ struct RenderedFrame {
   Statistics statistics;  ///< of this frame alone; without the members of `process` that a run samples
 };
 
+/// Whether operators may run the scripts that the scene names. A script may do whatever the user may do.
+enum class ScriptUse { kRefused, kAllowed };
+
 /// A scene in the memory of a host: its values change, its coats grow, its frames are rendered, any number of
 /// times. Skins and grooms that no change concerns are kept.
 ///
@@ -34,9 +37,10 @@ class SceneSession {
  public:
   /// Reads a scene file, but no RIB file, and sets values. `threads`: 0 means available_processors().
   explicit SceneSession(const std::filesystem::path& path, const std::vector<Override>& changes = {},
-                        int threads = 0);
+                        int threads = 0, ScriptUse scripts = ScriptUse::kRefused);
   /// Takes a document that the host has made, see make_scene().
-  explicit SceneSession(Value document, const std::vector<Override>& changes = {}, int threads = 0);
+  explicit SceneSession(Value document, const std::vector<Override>& changes = {}, int threads = 0,
+                        ScriptUse scripts = ScriptUse::kRefused);
   ~SceneSession();
   SceneSession(const SceneSession&) = delete;
   SceneSession& operator=(const SceneSession&) = delete;
@@ -67,10 +71,11 @@ class SceneSession {
   };
   static Document read_file(const std::filesystem::path& path);
   static Document changed(Document document, const std::vector<Override>& changes);
-  static std::shared_ptr<const SceneDescription> checked(const Document& document);
+  std::shared_ptr<const SceneDescription> checked(const Document& document) const;
   /// Brings the assets to the state of `scene`.
   Assets& assets_of(const SceneDescription& scene, const Job& job);
 
+  const std::shared_ptr<const OperatorScripts> scripts_;  // SceneDescription::scripts
   Workers workers_;
   MemoryLedger ledger_;
 

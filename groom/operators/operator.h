@@ -22,6 +22,7 @@ namespace pelage {
 
 class LimitSurface;
 class Operator;
+class OperatorScripts;
 class PartLines;
 struct Job;
 struct StrandBatch;
@@ -87,6 +88,8 @@ struct OperatorTraits {
   bool parts_hair = false;
   /// Whether misses() may be true.
   bool may_miss = false;
+  /// Whether prepare() needs PrepareContext::scripts.
+  bool runs_script = false;
 };
 
 /// Inputs of prepare(), which runs before strands are grown. Rest state only.
@@ -102,6 +105,7 @@ struct PrepareContext {
   std::string owner = {};        ///< owner of the operator, for messages: "groom 'coat'"
   /// The lines of all operators of the groom that part hair, before and after this one.
   std::vector<std::shared_ptr<const PartLines>> parts = {};
+  const OperatorScripts* scripts = nullptr;  ///< null: the user has not allowed scripts
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.

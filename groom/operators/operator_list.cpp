@@ -19,6 +19,7 @@
 #include "groom/operators/noise.h"
 #include "groom/operators/parting.h"
 #include "groom/operators/push_out.h"
+#include "groom/operators/python_operator.h"
 #include "groom/operators/swirl.h"
 #include "groom/operators/wet.h"
 #include "groom/operators/width.h"
@@ -55,10 +56,10 @@ OperatorKind kind_of() {
 
 const std::vector<OperatorKind>& kinds() {
   static const std::vector<OperatorKind> table{
-      kind_of<Length>(), kind_of<Comb>(),    kind_of<Parting>(), kind_of<Swirl>(),
-      kind_of<Bend>(),   kind_of<Clump>(),   kind_of<Wet>(),     kind_of<Braid>(),
-      kind_of<Avoid>(),  kind_of<Curl>(),    kind_of<Frizz>(),   kind_of<Noise>(),
-      kind_of<Guides>(), kind_of<PushOut>(), kind_of<Width>(),   kind_of<Color>()};
+      kind_of<Length>(), kind_of<Comb>(),          kind_of<Parting>(), kind_of<Swirl>(),   kind_of<Bend>(),
+      kind_of<Clump>(),  kind_of<Wet>(),           kind_of<Braid>(),   kind_of<Avoid>(),   kind_of<Curl>(),
+      kind_of<Frizz>(),  kind_of<Noise>(),         kind_of<Guides>(),  kind_of<PushOut>(), kind_of<Width>(),
+      kind_of<Color>(),  kind_of<PythonOperator>()};
   return table;
 }
 

@@ -9,6 +9,7 @@
 
 open, Scene        scenes: set values, grow coats, render frames
 Strands, Mesh      strands and meshes as arrays, from and to files; Poses of a mesh
+Map                an image as an array, for fields and lights
 Picture, Pass      layers of a frame, finished or between two passes
 Fibre              fibre models: evaluate, sample, integrate
 schema             all keys of a scene, for tools that build panels
@@ -27,6 +28,7 @@ from . import _pelage
 from ._errors import Cancelled, Error, PelageWarning, Problem
 from ._fibre import Fibre
 from ._geometry import Mesh, Poses
+from ._map import Map
 from ._measure import measure
 from ._picture import Pass, Picture
 from ._scene import Progress, Scene, open
@@ -49,6 +51,7 @@ __all__ = [
     "Cancelled",
     "Error",
     "Fibre",
+    "Map",
     "Mesh",
     "Pass",
     "PelageWarning",

@@ -24,11 +24,28 @@ def _fits(array: NDArray[Any], shape: Shape) -> bool:
     return array.ndim == len(shape) and all(want is None or have == want for have, want in zip(array.shape, shape))
 
 
+def refuse_masked(array: Any, name: str) -> None:
+    """Raises ValueError for an array of numpy.ma some of whose values are masked: there is nothing in their place."""
+    mask = getattr(array, "mask", None)
+    if mask is not None and (mask if isinstance(mask, bool) else mask.any()):
+        raise ValueError(f"{name}: some values are masked")
+
+
+def _array(value: ArrayLike, name: str) -> NDArray[Any]:
+    import numpy as np
+
+    refuse_masked(value, name)
+    try:
+        return np.asarray(value)
+    except ValueError as error:  # lists of different lengths
+        raise ValueError(f"{name}: {error}") from None
+
+
 def floats(value: ArrayLike, name: str, *shapes: Shape) -> FloatArray:
     """Returns float32 of one of the shapes, finite. A contiguous float32 array is not copied."""
     import numpy as np
 
-    array = np.asarray(value)
+    array = _array(value, name)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: expected numbers, got {array.dtype}")
     if shapes and not any(_fits(array, shape) for shape in shapes):
@@ -44,7 +61,7 @@ def integers(value: ArrayLike, name: str, dtype: str, *shapes: Shape) -> IntArra
     """Returns integers of `dtype` of one of the shapes, none of them outside its range."""
     import numpy as np
 
-    array = np.asarray(value)
+    array = _array(value, name)
     if array.size == 0 and array.dtype.kind == "f":
         array = array.astype(dtype)
     if array.dtype.kind not in "iu":

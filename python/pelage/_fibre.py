@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _pelage
+from ._arguments import callback, whole
 from ._arrays import floats
 from ._values import scene_value
 
@@ -33,7 +34,7 @@ class Fibre:
 
     def __init__(self, model: str | Mapping[str, Any], *, progress: Any = None, **keys: Any) -> None:
         values = dict(model) if isinstance(model, Mapping) else {"model": model}
-        self._fibre: _pelage.Fibre = _pelage.make_fibre(scene_value({**values, **keys}, ""), progress)
+        self._fibre: _pelage.Fibre = _pelage.make_fibre(scene_value({**values, **keys}, ""), callback(progress, "progress"))
         self.far_field: bool = self._fibre.far_field
 
     def evaluate(self, wo: ArrayLike, wi: ArrayLike, h: ArrayLike = 0.0) -> FloatArray:
@@ -68,9 +69,10 @@ class Fibre:
         return self._fibre.albedo(outgoing, across)
 
     def integrate(self, wo: ArrayLike, h: ArrayLike = 0.0, *, steps: int = 128) -> FloatArray:
-        """Returns (n, 3), the integral of rho over all wi by a rule with steps * 2 steps directions."""
+        """Returns (n, 3), the integral of rho over all wi by a rule with steps * 2 steps directions. steps: 1 to 4096."""
         import numpy as np
 
+        steps = whole(steps, "steps", 1, 4096)
         outgoing, across = _aligned(wo=wo, h=h)
         x = (np.arange(steps) + 0.5) / steps * 2 - 1  # equal areas: x and the azimuth
         azimuth = (np.arange(2 * steps) + 0.5) / (2 * steps) * 2 * np.pi

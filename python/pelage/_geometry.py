@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from . import _pelage
+from ._arguments import path as file_path
 from ._arrays import floats, integers
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class Mesh:
     def read(path: str | os.PathLike[str]) -> Mesh:
         """Reads an OBJ file."""
         mesh = Mesh.__new__(Mesh)
-        mesh._data = _pelage.read_mesh(os.fspath(path))
+        mesh._data = _pelage.read_mesh(file_path(path, "path"))
         return mesh
 
     @property

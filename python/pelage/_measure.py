@@ -4,10 +4,17 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from typing import Any
 
+from ._arguments import mapping, text
+from ._arguments import path as file_path
+from ._errors import Error
 from ._values import changes
+
+_KINDS = {2: "arguments", 3: "input", 4: "memory", 130: "stopped", 143: "stopped", 129: "stopped"}
+"""Kinds of errors by exit code (docs/RUNNING.md)."""
 
 
 def program() -> str:
@@ -40,25 +47,41 @@ def measure(
 
     experiment: "bounds", "lod", "shading" and others (docs/MEASURE.md). set: values of the scene, by key; numbers, text
     and lists of them. options: flags of the command, `time_limit=60` for --time-limit 60; lists are joined by commas.
-    Raises RuntimeError with what the command says if it fails.
+    Raises pelage.Error, with the problems that the command states, if it fails.
     """
     import json
     import subprocess
     import tempfile
 
+    what = [text(experiment, "experiment"), file_path(scene, "scene")]
+    values = changes(mapping(set, "set"))
     with tempfile.TemporaryDirectory(prefix="pelage-") as folder:
-        command = [program(), "measure", experiment, os.fspath(scene), "-o", folder, "--quiet"]
-        for key, value in changes(set or {}).items():
+        command = [program(), "measure", *what, "-o", folder, "--quiet"]
+        for key, value in values.items():
             command += ["--set", f"{key}={_yaml(value)}"]
         for name, value in options.items():
-            text = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
-            command += ["--" + name.replace("_", "-"), text]
+            argument = ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+            command += ["--" + name.replace("_", "-"), argument]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            raise RuntimeError(done.stderr.strip() or f"pelage measure ended with exit code {done.returncode}")
+            raise _error(done.returncode, done.stderr)
         with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
             report: dict[str, Any] = json.load(file)
         return report
+
+
+def _error(code: int, said: str) -> Error:
+    """Returns the error that a command has printed, one problem per line: "file:line:column: message"."""
+    lines = [line for line in said.splitlines() if line.strip()] or [f"pelage measure ended with exit code {code}"]
+    problems: list[tuple[str, int, int, str]] = []
+    for line in lines:
+        found = re.match(r"(?P<file>[^:]+)(?::(?P<line>\d+))?(?::(?P<column>\d+))?: (?P<message>.*)", line)
+        if found and found["file"] not in ("pelage", "pelage: error"):
+            place = (found["file"], int(found["line"] or 0), int(found["column"] or 0))
+            problems.append((*place, found["message"]))
+        else:
+            problems.append(("", 0, 0, line.removeprefix("pelage: error: ")))
+    return Error(problems, _KINDS.get(code, "failed"))
 
 
 def _yaml(value: Any) -> str:

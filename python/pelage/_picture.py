@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from . import _pelage
+from ._arguments import number
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from . import _pelage
 
     Layers = Mapping[str, NDArray[Any]]
 else:
@@ -51,6 +52,7 @@ class Picture(Layers):
         """Returns (height, width, 3), bytes for a screen, like a .png of Pelage. `exposure`: in stops."""
         import numpy as np
 
+        exposure = number(exposure, "exposure", 100)
         x = 0.72 * np.clip(self.rgba[..., :3] * 2.0**exposure, 0, 1000)
         curve = np.clip(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0, 1)
         encoded = np.where(curve <= 0.0031308, 12.92 * curve, 1.055 * curve ** (1 / 2.4) - 0.055)
@@ -60,7 +62,7 @@ class Picture(Layers):
         try:
             return self._layers[layer]
         except KeyError:
-            raise KeyError(f"there is no layer {layer!r}; this picture has {', '.join(self)}") from None
+            raise _no_layer(layer, list(self)) from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._layers)
@@ -89,8 +91,21 @@ class Pass:
         self.coarse: bool = view.coarse
 
     def layers(self, *names: str) -> dict[str, NDArray[Any]]:
-        """Returns the layers of these names, or all, as a dict of arrays, as in a Picture."""
+        """Returns the layers of these names, or all, as a dict of arrays, as in a Picture.
+
+        Raises KeyError, with the nearest name, for a layer that the picture does not have.
+        """
+        if names:
+            known = self._view.names
+            for name in names:
+                if name not in known:
+                    raise _no_layer(name, known)
         return self._view.layers(list(names) or None)
 
     def __getitem__(self, layer: str) -> NDArray[Any]:
         return self.layers(layer)[layer]
+
+
+def _no_layer(name: object, known: list[str]) -> KeyError:
+    nearest = _pelage.suggest(name, known) if isinstance(name, str) else ""
+    return KeyError(f"there is no layer {name!r}{nearest or '; expected one of ' + ', '.join(known)}")

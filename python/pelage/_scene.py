@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 import operator
 import os
 import warnings
@@ -11,6 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional
 
 from . import _pelage
+from ._arguments import callback, flag, mapping, number, text, whole
+from ._arguments import path as file_path
 from ._errors import PelageWarning
 from ._picture import Pass, Picture
 from ._strands import Strands
@@ -29,16 +30,18 @@ class Scene:
     folder. `pelage.open(path)` reads a file.
 
     threads: number of threads; 0 means all processors. The pixels do not depend on it.
+    allow_scripts: whether operators `python` may run the functions that the scene names. They may do whatever you may do,
+        so pass True only for scenes that you trust.
 
     Several threads may use one scene: their renders take turns. Two scenes render at the same time. All methods raise
     pelage.Error, with file, line, column and nearest name; TypeError and ValueError name the key of a bad value.
     """
 
-    def __init__(self, values: Mapping[str, Any], *, threads: int = 0) -> None:
+    def __init__(self, values: Mapping[str, Any], *, threads: int = 0, allow_scripts: bool = False) -> None:
         if not isinstance(values, Mapping):
             raise TypeError(f"values: expected a dict, got {type(values).__name__}")
         document = scene_value({"pelage": 1, **values}, "")
-        self._take(_pelage.make_scene(document, {}, _thread_count(threads)))
+        self._take(_pelage.make_scene(document, {}, whole(threads, "threads", 0, 4096), flag(allow_scripts, "allow_scripts")))
 
     def _take(self, session: _pelage.Session) -> None:
         self._session = session
@@ -46,10 +49,9 @@ class Scene:
         self._warn()
 
     @staticmethod
-    def _open(path: str | os.PathLike[str], set: Mapping[str, Any] | None, threads: int) -> Scene:
+    def _open(path: str, set: Mapping[str, Any] | None, threads: int, allow_scripts: bool) -> Scene:
         scene = Scene.__new__(Scene)
-        file = _text(os.fspath(path), "path")
-        scene._take(_pelage.open_scene(file, changes(set or {}), _thread_count(threads)))
+        scene._take(_pelage.open_scene(path, changes(mapping(set, "set")), threads, flag(allow_scripts, "allow_scripts")))
         return scene
 
     def _warn(self) -> None:
@@ -86,7 +88,7 @@ class Scene:
         coat: the name of a groom ("coat": on all characters), or of a coat of one character ("rat.coat").
         frame: number of the frame; None means the first of the scene.
         """
-        return Strands._of(self._session.grow(_text(coat, "coat"), _frame(frame), _callback(progress, "progress")))
+        return Strands._of(self._session.grow(text(coat, "coat"), _frame(frame), callback(progress, "progress")))
 
     def render(
         self,
@@ -106,10 +108,10 @@ class Scene:
         cancel() ends the render with a partial picture, or with pelage.Cancelled if there are no samples yet.
         """
         box = None if region is None else _region(region, self.size)
-        shown = _callback(on_pass, "on_pass")
+        shown = callback(on_pass, "on_pass")
         watch = None if shown is None else (lambda view: shown(Pass(view)))
-        file = "" if output is None else _text(os.fspath(output), "output")
-        return Picture(self._session.render(_frame(frame), box, file, _callback(progress, "progress"), watch))
+        file = "" if output is None else file_path(output, "output")
+        return Picture(self._session.render(_frame(frame), box, file, callback(progress, "progress"), watch))
 
     def cancel(self) -> None:
         """Cancels what other threads are doing with this scene; no effect on later calls."""
@@ -155,46 +157,20 @@ class Scene:
         return f"<pelage.Scene: grooms {', '.join(self.grooms) or 'none'}; {self.size[0]} x {self.size[1]}>"
 
 
-def open(path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, threads: int = 0) -> Scene:
+def open(
+    path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, threads: int = 0, allow_scripts: bool = False
+) -> Scene:
     """Opens a scene file.
 
     set: values that replace values of the file, by key. threads: number of threads; 0 means all processors.
+    allow_scripts: see Scene.
     Raises pelage.Error with all mistakes of the file, each with line and column.
     """
-    return Scene._open(path, set, threads)
-
-
-def _thread_count(threads: Any) -> int:
-    if isinstance(threads, bool) or not isinstance(threads, int):
-        raise TypeError(f"threads: expected an integer, got {type(threads).__name__}")
-    if not 0 <= threads <= 4096:
-        raise ValueError(f"threads: expected 0 to 4096, got {threads}")
-    return threads
-
-
-def _text(value: Any, name: str) -> str:
-    if not isinstance(value, str):
-        raise TypeError(f"{name}: expected text, got {type(value).__name__}")
-    return value
-
-
-def _callback(value: Any, name: str) -> Any:
-    if value is not None and not callable(value):
-        raise TypeError(f"{name}: expected something to call, got {type(value).__name__}")
-    return value
+    return Scene._open(file_path(path, "path"), set, whole(threads, "threads", 0, 4096), allow_scripts)
 
 
 def _frame(frame: Any) -> float | None:
-    if frame is None:
-        return None
-    if isinstance(frame, (bool, str)) or not hasattr(frame, "__float__"):
-        raise TypeError(f"frame: expected a number, got {type(frame).__name__}")
-    number = float(frame)
-    if not math.isfinite(number):
-        raise ValueError(f"frame: expected a finite number, got {number}")
-    if abs(number) > 1e6:
-        raise ValueError(f"frame: expected a number from -1000000 to 1000000, got {number}")
-    return number
+    return None if frame is None else number(frame, "frame", 1e6)
 
 
 def _region(region: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:

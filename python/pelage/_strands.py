@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from . import _pelage
+from ._arguments import mapping, number, text
+from ._arguments import path as file_path
 from ._arrays import floats, integers
 from ._errors import PelageWarning
 
@@ -66,8 +68,11 @@ class Strands:
         if (quads[:, 3] < 0).any():
             raise ValueError("widths: must not be negative")
         numbers = np.arange(count, dtype=np.uint64) if ids is None else integers(ids, "ids", "uint64", (count,))
-        values = {name: _attribute(value, name, count, total) for name, value in (attributes or {}).items()}
-        self._take(_pelage.make_strands(quads, firsts.astype(np.uint32), numbers, basis, values))
+        values = {name: _attribute(value, name, count, total) for name, value in mapping(attributes, "attributes").items()}
+        for name in values:
+            if not text(name, "attributes"):
+                raise ValueError("attributes: expected a name, got an empty one")
+        self._take(_pelage.make_strands(quads, firsts.astype(np.uint32), numbers, text(basis, "basis"), values))
 
     def _take(self, batch: _pelage.StrandBatch) -> None:
         self._batch = batch
@@ -88,14 +93,15 @@ class Strands:
     @staticmethod
     def read(path: str | os.PathLike[str], *, basis: str = "", width: float = 0) -> Strands:
         """Reads a .hair or .tfx file. `basis` and `width` (scene units): for files that do not state them."""
-        return Strands._of(_pelage.read_strands(os.fspath(path), basis, width))
+        return Strands._of(_pelage.read_strands(file_path(path, "path"), text(basis, "basis"), number(width, "width", 1e6)))
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes a .hair or .tfx file, whole or not at all. Warns of what the format cannot hold."""
-        lost = _pelage.StrandBatch.what_is_lost(self._batch, os.fspath(path))
+        file = file_path(path, "path")
+        lost = _pelage.StrandBatch.what_is_lost(self._batch, file)
         if lost:
-            warnings.warn(f"{os.fspath(path)}: the file cannot hold {lost}", PelageWarning, stacklevel=2)
-        self._batch.write(os.fspath(path))
+            warnings.warn(f"{file}: the file cannot hold {lost}", PelageWarning, stacklevel=2)
+        self._batch.write(file)
 
     @property
     def points(self) -> NDArray[np.float32]:

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host without files: its mesh is in memory, it grows strands into arrays, and it sees the picture form.
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
+#include <span>
 
 #include "base/stop_switch.h"
 #include "base/version.h"
 #include "geom/io/host_geometry.h"
+#include "image/host_image.h"
 #include "render/frame/frame_watch.h"
 #include "world/scene_session.h"
 
@@ -16,7 +19,8 @@ pelage: 1
 camera: {position: [0, 2, 4], look_at: [0, 0, 0], fov: 40}
 image: {width: 32, height: 18}
 skins: {ground: {mesh: from-memory, scheme: none}}
-grooms: {grass: {skin: ground, strands: 500, points: 4, operators: [{length: {value: 0.3}}, {width: {root: 0.05}}]}}
+grooms: {grass: {skin: ground, strands: 500, points: 4, density: {map: from-memory, channel: r, projection: planar, axis: y},
+                 operators: [{length: {value: 0.3}}, {width: {root: 0.05}}]}}
 materials: {earth: {model: lambert}, blade: {model: chiang}}
 characters: {lawn: {parts: [{skin: ground, material: earth, grooms: {grass: blade}}]}}
 lights: {sun: {type: rectangle, position: [2, 4, 3], look_at: [0, 0, 0], size: [2, 2], radiance: [5, 5, 5]}}
@@ -43,7 +47,13 @@ int main() try {
   mesh.face_sizes = {4};
   mesh.face_vertices = {0, 3, 2, 1};
   const pelage::Value ground = pelage::Value::host({}, pelage::share_mesh(std::move(mesh)));
-  pelage::SceneSession session(pelage::parse_document(kScene, "lawn"), {{"skins.ground.mesh", "", ground}});
+  const float grass_left_and_right[] = {1, 0.2f};
+  const auto bytes = std::as_bytes(std::span(grass_left_and_right));
+  const pelage::Value density = pelage::Value::host(
+      {}, pelage::share_image({2, 1, 1, pelage::TexelKind::kFloat}, {bytes.begin(), bytes.end()}));
+  pelage::SceneSession session(
+      pelage::parse_document(kScene, "lawn"),
+      {{"skins.ground.mesh", "", ground}, {"grooms.grass.density.map", "", density}});
 
   pelage::StopSwitch progress;  // progress.stop() on another thread would cancel
   const pelage::Strands grass = session.grow("grass", {}, progress);

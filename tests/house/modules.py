@@ -24,6 +24,7 @@ LIBRARY_HEADERS = {
     "JSON": r"nlohmann/",
     "Boost": r"boost/",
     "pybind11": r"pybind11/",
+    "CPython": r"Python\.h",
     "libpng": r"png\.h",
     "zlib": r"zlib\.h",
 }

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 import pelage
-from small import CUBE, FACES, same_layers, scene_values
+from small import CUBE, FACES, png_of, same_layers, scene_values
 
 
 def resident_kb():
@@ -91,6 +91,42 @@ class FromArrays(unittest.TestCase):
             "one": {"parts": [{"skin": "cube", "material": "hide"}]}}}).render()
         self.assertFalse(same_layers(of_file, bald))
 
+    def test_maps_of_numpy_give_the_pixels_of_their_file(self):
+        pixels = np.random.default_rng(2).integers(0, 256, (8, 8, 3), np.uint8)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "map.png"
+            path.write_bytes(png_of(pixels))
+
+            def values(image):
+                values = scene_values(density={"map": image, "channel": "g", "projection": "planar"})
+                values["materials"]["fur"]["color"] = {"map": image, "projection": "planar", "size": [1, 1, 1]}
+                values["lights"]["panel"] = {"type": "rectangle", "position": [0, 2, 0], "look_at": [0, 0, 0],
+                                             "size": [1, 1], "file": image if isinstance(image, pathlib.Path) else
+                                             pelage.Map(pixels), "radiance": [3, 3, 3]}
+                return values
+
+            of_file = pelage.Scene(values(path)).render()
+        self.assertTrue(same_layers(of_file, pelage.Scene(values(pixels)).render()))
+        self.assertTrue(same_layers(of_file, pelage.Scene(values(pelage.Map(pixels))).render()))
+        scene = pelage.Scene(values(pixels))
+        before = scene.grow("coat").points
+        scene.set("grooms.coat.density.map", pixels[::-1] / 255)
+        self.assertFalse(np.array_equal(before, scene.grow("coat").points))
+
+    def test_bad_maps_are_named(self):
+        for pixels, kind, message in [
+            ([1, 2], ValueError, "pixels: expected the shape"), (np.zeros((2, 2, 5)), ValueError, "1 to 4 channels"),
+            (np.zeros((0, 2)), ValueError, "1 to 4 channels"), ([[np.nan]], ValueError, "pixels: not finite"),
+            ([["a"]], TypeError, "pixels: expected numbers"),
+        ]:
+            with self.assertRaisesRegex(kind, message):
+                pelage.Map(pixels)
+        scene = pelage.Scene(scene_values(mesh=pelage.Map([[1.0]])))
+        with self.assertRaisesRegex(pelage.Error, "skins.cube.mesh: expected a mesh, got image:"):
+            scene.grow("coat")
+        with self.assertRaisesRegex(pelage.Error, "grooms.coat.density.map: expected an image, got mesh:"):
+            pelage.Scene(scene_values(density={"map": pelage.Mesh(CUBE, FACES), "projection": "planar"})).grow("coat")
+
     def test_attributes_and_ids_are_kept(self):
         points = np.zeros((2, 3, 3), np.float64)
         points[:, :, 1] = [0, 1, 2]
@@ -113,6 +149,11 @@ class FromArrays(unittest.TestCase):
             ({"points": line[0], "offsets": [0, 3]}, ValueError, "offsets: expected ascending numbers from 0 to 2"),
             ({"attributes": {"age": [1, 2, 3]}}, ValueError, "age: expected 1, 1 or 2 rows"),
             ({"basis": "bezzier"}, ValueError, "basis: expected"),
+            ({"basis": 5}, TypeError, "basis: expected text, got int"),
+            ({"attributes": [1]}, TypeError, "attributes: expected a dict, got list"),
+            ({"attributes": {5: [1]}}, TypeError, "attributes: expected text, got int"),
+            ({"ids": [1, [2]]}, ValueError, "ids: setting an array element"),
+            ({"widths": np.ma.masked}, ValueError, "widths: some values are masked"),
         ]:
             with self.assertRaisesRegex(kind, message):
                 pelage.Strands(**{"points": line, "widths": 0.1, **arguments})

@@ -30,7 +30,7 @@ class Examples(unittest.TestCase):
         shown = re.findall(r"\((\w+)\.py\)", (SOURCE / "examples/python/README.md").read_text(encoding="utf-8"))
         files = {path.stem for path in (SOURCE / "examples/python").glob("*.py")}
         self.assertEqual(set(shown), files)
-        few = {"sweep": ["32"], "numpy_groom": ["24"], "layers": ["32"], "lobes": ["chiang"]}
+        few = {"sweep": ["32"], "numpy_groom": ["24"], "layers": ["32"], "waves": ["24"], "lobes": ["chiang"]}
         for name in shown:
             with self.subTest(name):
                 self.run_example(name, *few.get(name, []))
@@ -44,6 +44,16 @@ class Examples(unittest.TestCase):
         with contextlib.chdir(self.folder):
             exec(compile(small, "PYTHON.md", "exec"), {})  # the guide is ours
         self.assertEqual(len(list(self.folder.glob("*.jpg"))), 1)
+
+    def test_the_guide_draws_a_figure_in_ten_lines(self):
+        text = (SOURCE / "docs/PYTHON.md").read_text(encoding="utf-8")
+        code = re.search(r"```python\n(import matplotlib.*?)```", text, re.DOTALL).group(1)
+        self.assertLessEqual(len(code.splitlines()), 10)
+        small = code.replace(', 63)', ', 7)').replace(', 121)', ', 9)').replace(', 25)', ', 3)').replace(', "chiang", "yan-fast", "yan"]', ']')
+        self.assertNotEqual(small, code)
+        with contextlib.chdir(self.folder):
+            exec(compile(small, "PYTHON.md", "exec"), {})  # the guide is ours
+        self.assertTrue((self.folder / "models.png").is_file())
 
 
 if __name__ == "__main__":

@@ -54,7 +54,8 @@ class Package(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             program = pathlib.Path(folder) / "pelage"
             program.write_text(f"#!{sys.executable}\nimport json, sys\nout = sys.argv[sys.argv.index('-o') + 1]\n"
-                               "if 'bad' in sys.argv: sys.exit('no such experiment')\n"
+                               "if 'bad' in sys.argv: sys.stderr.write(\"a.yaml:2:9: unknown key 'widht'; did you mean 'width'?\\n"
+                               "pelage: error: and 3 more\\n\"); sys.exit(3)\n"
                                "json.dump(sys.argv[1:3] + sys.argv[6:], open(out + '/report.json', 'w'))\n")
             program.chmod(0o755)
             os.environ["PELAGE_PROGRAM"] = str(program)
@@ -62,8 +63,12 @@ class Package(unittest.TestCase):
             report = pelage.measure("bounds", "a.yaml", set={"camera.position": [1, 2.5, 0]}, sample_counts=[1, 4])
             self.assertEqual(report, ["measure", "bounds", "--quiet", "--set", "camera.position=[1, 2.5, 0]",
                                       "--sample-counts", "1,4"])
-            with self.assertRaisesRegex(RuntimeError, "no such experiment"):
+            with self.assertRaises(pelage.Error) as caught:
                 pelage.measure("bad", "a.yaml")
+        error = caught.exception
+        self.assertEqual((error.kind, error.file, error.line, error.column, error.nearest),
+                         ("input", "a.yaml", 2, 9, "width"))
+        self.assertEqual(error.problems[1].message, "and 3 more")
 
     def test_the_program_is_found_beside_the_package(self):
         found = pathlib.Path(_measure.program())

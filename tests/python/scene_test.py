@@ -75,8 +75,8 @@ class Values(unittest.TestCase):
         scene = pelage.Scene(scene_values())
         for value, kind, message in [
             (float("nan"), ValueError, "render.samples: expected a finite number, got nan"),
-            (object(), TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got object"),
-            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Mesh, Poses or Strands, got bytes"),
+            (object(), TypeError, "render.samples: expected a number, text, list, dict, Map, Mesh, Poses or Strands, got object"),
+            (b"8", TypeError, "render.samples: expected a number, text, list, dict, Map, Mesh, Poses or Strands, got bytes"),
             ({(1,): 2}, TypeError, "render.samples: expected names as keys, got tuple"),
         ]:
             with self.assertRaises(kind) as caught:
@@ -104,6 +104,21 @@ class Values(unittest.TestCase):
             (lambda: scene.render(region=(0, 0, 8)), ValueError, "region: expected four integers x0, y0, x1, y1"),
             (lambda: scene.render(region=(0, 0, 8, 17)), ValueError,
              "region: expected a box inside 24 x 16 pixels, got (0, 0, 8, 17)"),
+            (lambda: scene.grow("\ud800"), ValueError, "coat: expected text, got half of a surrogate pair"),
+            (lambda: scene.set("image.width", "\ud800"), ValueError,
+             "image.width: expected text, got half of a surrogate pair"),
+            (lambda: scene.set([], 1), TypeError, "key: expected names as keys, got list"),
+            (lambda: scene.set("camera.look_at", np.ma.masked_array([0, 1, 2], [0, 1, 0])), ValueError,
+             "camera.look_at: some values are masked"),
+            (lambda: scene.render(output="a\0.exr"), ValueError, "output: no file has a name with a null character"),
+            (lambda: pelage.open(5), TypeError, "path: expected text or a path, got int"),
+            (lambda: pelage.open("a.yaml", set=[]), TypeError, "set: expected a dict, got list"),
+            (lambda: pelage.read_strands("a.hair", width=float("inf")), ValueError,
+             "width: expected a finite number, got inf"),
+            (lambda: pelage.measure(5, "a.yaml"), TypeError, "experiment: expected text, got int"),
+            (lambda: pelage.Fibre("chiang", progress=5), TypeError, "progress: expected something to call, got int"),
+            (lambda: pelage.Fibre("chiang").integrate([0, 1, 0], steps=0), ValueError,
+             "steps: expected 1 to 4096, got 0"),
             (lambda: pelage.Scene({}, threads=1.5), TypeError, "threads: expected an integer, got float"),
         ]:
             with self.assertRaises(kind) as caught:
@@ -137,8 +152,11 @@ class Renders(unittest.TestCase):
         self.assertEqual(picture["id"].dtype, np.uint32)
         self.assertEqual(picture["key.diffuse"].shape, (16, 24, 3))
         self.assertEqual(picture.stats["characters"], 1)
-        with self.assertRaisesRegex(KeyError, "there is no layer 'rgba'; this picture has RGBA, "):
-            picture["rgba"]
+        with self.assertRaisesRegex(KeyError, "there is no layer 'key.difuse'; did you mean 'key.diffuse'"):
+            picture["key.difuse"]
+        with self.assertRaisesRegex(KeyError, "there is no layer 'nope'; expected one of RGBA, "):
+            picture["nope"]
+        self.assertFalse("nope" in picture or 5 in picture)
 
     def test_a_region_is_part_of_the_picture(self):
         scene = pelage.Scene({**scene_values(), "render": {"samples": 1, "integrator": "path"}})
@@ -155,6 +173,8 @@ class Renders(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "while its callback runs"):
             seen[-1][0].layers()
         self.assertTrue(same_layers(picture, scene.render()))
+        with self.assertRaisesRegex(KeyError, "there is no layer 'key.difuse'; did you mean 'key.diffuse'"):
+            scene.render(on_pass=lambda p: p.layers("key.difuse"))
 
     def test_a_callback_cannot_wait_for_the_call_that_waits_for_it(self):
         scene = self.slow_scene()

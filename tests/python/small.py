@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A furry cube without any file, in a picture of 24 x 16 pixels."""
+import struct
+import zlib
+
 import numpy as np
 
 import pelage
@@ -12,6 +15,16 @@ def cube_obj():
     """The same cube as the text of an OBJ file."""
     lines = ["v %.9g %.9g %.9g" % tuple(point) for point in CUBE]
     return "\n".join(lines + ["f %d %d %d %d" % tuple(face + 1) for face in FACES]) + "\n"
+
+
+def png_of(pixels):
+    """The bytes of a PNG file with pixels (height, width, 3) of uint8."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    header = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)
+    rows = zlib.compress(b"".join(b"\0" + row.tobytes() for row in pixels))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
 
 
 def scene_values(mesh=None, **groom):

@@ -30,6 +30,8 @@ std::pair<std::string, std::string> two_values(const KeyInfo& key, const std::st
   const std::string& type = key.type;
   if (type.find("file") != std::string::npos) return {file, other_file};
   if (type == "true or false") return {"true", "false"};
+  if (type == "text") return {"one", "other"};
+  if (type == "block of values") return {"{a: 1}", "{a: 1.5}"};
   if (type.find("list of 3 numbers") != std::string::npos) return {"[[1, 2, 3]]", "[[1, 2, 3.5]]"};
   if (type.find("list") != std::string::npos)
     return {"[{spacing: 0.1, amount: 0.5}]", "[{spacing: 0.1, amount: 0.25}]"};
