@@ -2,6 +2,7 @@
 #include "groom/sim/guide_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,13 +50,17 @@ bool nearest_place(const SkinMoment& at, const V3d& point, double limit, SkinPla
   return true;
 }
 
+/// A distance within which the skin is found, although places are rounded to floats.
+double safe_limit(double distance, const V3d& point, double unit) {
+  return distance * 1.001 + 1e-6 * (point.length() + unit);
+}
+
 }  // namespace
 
 struct GuideSimulation::Scratch {
-  Rod::Workspace rod;
-  std::vector<Plane> planes;
-  std::vector<RodContact> contacts;
-  std::vector<V3d> air;
+  RodPack pack;
+  std::vector<Below> below;  // of the nodes of each lane
+  Wind::Cell air;
 };
 
 GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<GuideShape> shapes,
@@ -107,73 +112,116 @@ void GuideSimulation::follow_rigidly(size_t g, const RodRoot& root, double secon
   state.root = root;
 }
 
-void GuideSimulation::find_planes(size_t g, const SkinMoment& to, double seconds, Scratch& scratch) const {
+void GuideSimulation::find_planes(size_t g, const SkinMoment& to, double seconds,
+                                  std::span<Below> below) const {
   const RodState& state = states_[g];
   const RodRoot& root = to.roots[g];
   const Quatd turn = root.frame * ~state.root.frame;
-  for (size_t i = 1; i <= segments_; ++i) {
+  const double length = rods_[g].length();
+  // From the tip down: where a node is high above the skin, its neighbours are known to be.
+  for (size_t i = segments_; i > 0; --i) {
     const V3d expected = root.position + turned(turn, state.positions[i] - state.root.position);
-    Plane& plane = scratch.planes[i];
     // The farthest that the node is expected to come nearer to the skin.
     const V3d falls = state.velocities[i] * seconds - (expected - state.positions[i]);
-    const double limit = std::min(rods_[g].length(), 2 * falls.length() + 0.1 * rods_[g].length());
-    SkinPlace below;
-    plane = {V3d(0), V3d(0), expected, limit};
-    if (!nearest_place(to, expected, limit, below)) continue;
-    plane.height = below.height;
-    plane.normal = turned(~root.frame, below.outward);
-    plane.point = turned(~root.frame, below.position + below.outward * clearance_[g][i] - root.position);
-  }
-}
-
-bool GuideSimulation::move(size_t g, const SkinMoment& to, const Wind& wind, double seconds, int steps,
-                           Scratch& scratch) {
-  RodState& state = states_[g];
-  const RodRoot from = state.root;
-  scratch.planes.assign(segments_ + 1, {});
-  scratch.contacts.assign(to.skin ? segments_ + 1 : 0, {});
-  if (to.skin) find_planes(g, to, seconds, scratch);
-  scratch.air.clear();
-  if (!wind.is_still()) {
-    for (const V3d& position : state.positions) scratch.air.push_back(wind.at(position));
-  }
-  RodForces forces{V3d(params_.gravity), scratch.air, scratch.contacts};
-  for (int k = 1; k <= steps; ++k) {
-    const RodRoot root = between(from, to.roots[g], static_cast<double>(k) / steps);
-    for (size_t i = 1; i < scratch.contacts.size(); ++i) {
-      const Plane& plane = scratch.planes[i];
-      RodContact& contact = scratch.contacts[i];
-      const V3d point = carried(root, plane.point);
-      contact.normal = turned(root.frame, plane.normal);
-      contact.offset = contact.normal.dot(point);
-      contact.motion = point - carried(state.root, plane.point);
+    double limit = std::min(length, 2 * falls.length() + 0.1 * length);
+    below[i] = {{}, expected, V3d(0), limit, false};
+    if (i < segments_) {
+      // Distances of two places from the skin differ by no more than the distance between the places.
+      const Below& last = below[i + 1];
+      const double at_least = last.distance - (expected - last.from).length();
+      below[i].distance = std::max(limit, at_least);
+      if (at_least > limit) continue;
+      if (last.plane.normal != V3d(0))
+        limit = std::min(limit, safe_limit((expected - last.nearest).length(), expected, to.meters_per_unit));
     }
-    if (!rods_[g].step(root, forces, seconds / steps, kNewtonSteps, state, scratch.rod)) return false;
+    SkinPlace place;
+    if (!nearest_place(to, expected, limit, place)) continue;
+    below[i].distance = std::fabs(place.height);
+    below[i].nearest = place.position;
+    below[i].is_inside = place.height < 0;
+    below[i].plane.normal = turned(~root.frame, place.outward);
+    below[i].plane.point =
+        turned(~root.frame, place.position + place.outward * clearance_[g][i] - root.position);
   }
-  return rods_[g].stretch(state) < kMostStretch;
 }
 
-void GuideSimulation::push_outside(size_t g, const SkinMoment& at, Scratch& scratch) {
+void GuideSimulation::move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind,
+                           double seconds, int steps, Scratch& scratch) {
+  RodPack& pack = scratch.pack;
+  pack.reset(segments_);
+  const size_t nodes = segments_ + 1;
+  scratch.below.resize(RodPack::kLanes * nodes);
+  std::array<RodRoot, RodPack::kLanes> from;
+  const auto below_of = [&](size_t lane) { return std::span(scratch.below).subspan(lane * nodes, nodes); };
+  const auto guide_of = [&](size_t lane) { return guides[std::min(lane, guides.size() - 1)]; };
+  for (size_t lane = 0; lane < RodPack::kLanes; ++lane) {
+    const size_t g = guide_of(lane);
+    pack.set_rod(lane, rods_[g], states_[g]);
+    from[lane] = states_[g].root;
+    const size_t known = std::min(lane, guides.size() - 1);
+    if (to.skin) {
+      if (known == lane) find_planes(g, to, seconds, below_of(lane));
+      for (size_t i = 1; i < nodes; ++i) pack.set_plane(lane, i, 0, below_of(known)[i].plane);
+    }
+    for (size_t i = 0; !wind.is_still() && i < nodes; ++i)
+      pack.set_air(lane, i, wind.at(states_[g].positions[i], scratch.air));
+  }
+  RodPack::Step step{V3d(params_.gravity), seconds / steps, kNewtonSteps, !wind.is_still(),
+                     to.skin ? 1u : 0u};
+  for (int k = 1; k <= steps; ++k) {
+    for (size_t lane = 0; lane < RodPack::kLanes; ++lane)
+      pack.set_root(lane, between(from[lane], to.roots[guide_of(lane)], static_cast<double>(k) / steps));
+    pack.step(step);
+  }
+  for (size_t lane = 0; lane < guides.size(); ++lane) {
+    const size_t g = guides[lane];
+    pack.get_state(lane, states_[g]);
+    rigid_[g] = !pack.is_finite(lane) || !(rods_[g].stretch(states_[g]) < kMostStretch);
+    if (rigid_[g]) {
+      states_[g].root = from[lane];
+      follow_rigidly(g, to.roots[g], seconds);
+    } else if (to.skin) {
+      push_outside(g, to, below_of(lane));
+    }
+  }
+}
+
+void GuideSimulation::push_outside(size_t g, const SkinMoment& at, std::span<const Below> below) {
   RodState& state = states_[g];
+  const double length = rods_[g].length();
   const auto raise = [&](size_t i, const V3d& outward, double by) {
     state.positions[i] += outward * by;
     const double into = state.velocities[i].dot(outward);
     if (into < 0) state.velocities[i] -= outward * into;
   };
-  for (size_t i = 1; i <= segments_; ++i) {
-    const RodContact& contact = scratch.contacts[i];
-    const double gap = contact.normal.dot(state.positions[i]) - contact.offset;
-    // Only a node just below its plane is in contact: the plane means nothing far from where it was found.
-    if (gap < 0 && gap > -rods_[g].length() / 4) raise(i, contact.normal, -gap);
-    // Distance from the skin changes by no more than the node has moved since it was measured.
-    const Plane& plane = scratch.planes[i];
-    if (plane.height - (state.positions[i] - plane.from).length() >= clearance_[g][i]) continue;
-    SkinPlace below;
+  V3d measured(0);  // a place above the skin, and its distance from it
+  double height = -1;
+  for (size_t i = segments_; i > 0; --i) {
+    const CarriedPlane& plane = below[i].plane;
+    const bool is_near = plane.normal != V3d(0);
+    V3d& position = state.positions[i];
+    if (is_near) {
+      const RodContact contact = plane.contact(at.roots[g], at.roots[g]);
+      const double gap = contact.normal.dot(position) - contact.offset;
+      // Only a node just below its plane is in contact: the plane means nothing far from where it was found.
+      if (gap < 0 && gap > -length / 4) raise(i, contact.normal, -gap);
+    }
+    // Distances of two places from the skin differ by no more than the distance between the places.
+    if (!below[i].is_inside && below[i].distance - (position - below[i].from).length() >= clearance_[g][i])
+      continue;
+    if (height - (position - measured).length() >= clearance_[g][i]) continue;
+    double limit = length;
+    if (is_near)
+      limit =
+          std::min(limit, safe_limit((position - below[i].nearest).length(), position, at.meters_per_unit));
     for (int k = 0; k < 2; ++k) {
-      if (!nearest_place(at, state.positions[i], rods_[g].length(), below)) break;
-      const double missing = clearance_[g][i] - below.height;
+      SkinPlace place;
+      if (!nearest_place(at, position, k == 0 ? limit : length, place)) break;
+      measured = position;
+      height = place.height;
+      const double missing = clearance_[g][i] - place.height;
       if (!(missing > 0)) break;
-      raise(i, below.outward, missing);
+      raise(i, place.outward, missing);
     }
   }
 }
@@ -181,18 +229,20 @@ void GuideSimulation::push_outside(size_t g, const SkinMoment& at, Scratch& scra
 void GuideSimulation::advance(const SkinMoment& to, const Wind& wind, double seconds, int steps,
                               const Job& job) {
   PELAGE_CHECK(to.roots.size() == guide_count());
-  job.for_each(guide_count(), 16, [&](WorkRange range) {
-    Scratch scratch;
-    for (size_t g = range.begin; g < range.end; ++g) {
-      const RodRoot before = states_[g].root;
-      rigid_[g] = always_rigid_[g] || !move(g, to, wind, seconds, steps, scratch);
-      if (rigid_[g]) {
-        states_[g].root = before;
-        follow_rigidly(g, to.roots[g], seconds);
-      } else if (to.skin) {
-        push_outside(g, to, scratch);
-      }
+  std::vector<size_t> moving;
+  for (size_t g = 0; g < guide_count(); ++g) {
+    rigid_[g] = always_rigid_[g];
+    if (always_rigid_[g]) {
+      follow_rigidly(g, to.roots[g], seconds);
+    } else {
+      moving.push_back(g);
     }
+  }
+  job.for_each(moving.size(), 8 * RodPack::kLanes, [&](WorkRange range) {
+    Scratch scratch;
+    for (size_t g = range.begin; g < range.end; g += RodPack::kLanes)
+      move(std::span(moving).subspan(g, std::min(RodPack::kLanes, range.end - g)), to, wind, seconds, steps,
+           scratch);
   });
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "groom/sim/dynamics_params.h"
-#include "groom/sim/rod.h"
+#include "groom/sim/rod_pack.h"
 #include "groom/strands/guide_turns.h"
 
 namespace pelage {
@@ -28,7 +28,8 @@ struct SkinMoment {
 };
 
 /// Simulates the guides of a coat. Each guide is a rod of its own, clamped to the skin, so the result does
-/// not depend on threads. A guide without a finite motion follows the skin rigidly.
+/// not depend on threads or on the guides that are stepped side by side with it. A guide without a finite
+/// motion follows the skin rigidly.
 class GuideSimulation {
  public:
   /// The guides start as groomed. All have the same number of points. `start` is needed only for the call.
@@ -53,17 +54,21 @@ class GuideSimulation {
   void set_state(std::span<const float> state, const SkinMoment& at);
 
  private:
-  struct Plane {
-    V3d point{0}, normal{0};  // in the space of the root; no normal: the skin is too far away to be met
-    V3d from{0};              // where the skin was looked for
-    double height = 0;        // of this place above the skin, at least
+  /// Where the skin is below a node.
+  struct Below {
+    CarriedPlane plane;   // no normal: the skin is too far away to be met
+    V3d from{0};          // where the skin was looked for
+    V3d nearest{0};       // its nearest place, if there is a normal
+    double distance = 0;  // of this place from the skin, at least; exact if there is a normal
+    bool is_inside = false;
   };
   struct Scratch;
   void follow_rigidly(size_t guide, const RodRoot& root, double seconds);
-  void find_planes(size_t guide, const SkinMoment& to, double seconds, Scratch& scratch) const;
-  bool move(size_t guide, const SkinMoment& to, const Wind& wind, double seconds, int steps,
+  void find_planes(size_t guide, const SkinMoment& to, double seconds, std::span<Below> below) const;
+  /// Moves up to RodPack::kLanes guides that are not always rigid.
+  void move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind, double seconds, int steps,
             Scratch& scratch);
-  void push_outside(size_t guide, const SkinMoment& at, Scratch& scratch);
+  void push_outside(size_t guide, const SkinMoment& at, std::span<const Below> below);
 
   const DynamicsParams params_;
   size_t segments_ = 0;
