@@ -81,6 +81,17 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
            .min = 0});
     s.key("friction", &DynamicsParams::friction, {.help = "Friction between strand and skin", .min = 0});
     s.key("collide", &DynamicsParams::collide, {.help = "Whether guides stay outside their skin"});
+    s.key("collide_with", &DynamicsParams::collide_with,
+          {.help =
+               "Characters whose skins guides stay outside of, as they move. The coat's own character stands "
+               "for its other skins"});
+    s.key(
+        "volume", &DynamicsParams::volume,
+        {.unit = "Hz",
+         .help = "Keeps a coat from collapsing: a point below its groomed height above the skin is pushed up "
+                 "by a spring of this frequency. 0 is off; needs `collide`",
+         .min = 0,
+         .max = 1000});
     s.key("gravity", &DynamicsParams::gravity, {.unit = "m / s^2", .help = "Acceleration by gravity"});
     s.key("wind", &DynamicsParams::wind, {.help = "The air", .default_text = "still air"});
     s.key("substeps", &DynamicsParams::substeps,
