@@ -17,6 +17,8 @@ using Imath::Quatd;
 namespace {
 
 constexpr int kNewtonSteps = 2;
+/// A guide whose steps fail is moved again in this many times as many steps, at most so often.
+constexpr int kMoreSteps = 4, kRetries = 2;
 /// A step that stretches a segment by more than this has not converged.
 constexpr double kMostStretch = 0.1;
 
@@ -160,7 +162,7 @@ void GuideSimulation::set_planes(size_t g, const SkinMoment& to, double seconds,
 }
 
 void GuideSimulation::move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind,
-                           double seconds, int steps, Scratch& scratch) {
+                           double seconds, int steps, Scratch& scratch, int retries) {
   RodPack& pack = scratch.pack;
   pack.reset(segments_);
   const size_t nodes = segments_ + 1;
@@ -192,18 +194,25 @@ void GuideSimulation::move(std::span<const size_t> guides, const SkinMoment& to,
       pack.set_root(lane, between(from[lane], to.roots[guide_of(lane)], static_cast<double>(k) / steps));
     pack.step(step);
   }
+  std::vector<size_t> failed;
   for (size_t lane = 0; lane < guides.size(); ++lane) {
     const size_t g = guides[lane];
+    const RodState before = states_[g];
     pack.get_state(lane, states_[g]);
-    rigid_[g] = !pack.is_finite(lane) || !(rods_[g].stretch(states_[g]) < kMostStretch);
-    if (rigid_[g]) {
-      states_[g].root = from[lane];
-      follow_rigidly(g, to.roots[g], seconds);
+    if (!pack.is_finite(lane) || !(rods_[g].stretch(states_[g]) < kMostStretch)) {
+      states_[g] = before;
+      failed.push_back(g);
     } else if (to.skin || !to.others.empty()) {
       push_outside(g, to, below_of(lane),
                    to.others.empty() ? std::span<const CarriedPlane>()
                                      : std::span(scratch.others).subspan(lane * nodes, nodes));
     }
+  }
+  if (failed.empty()) return;
+  if (retries > 0) return move(failed, to, wind, seconds, kMoreSteps * steps, scratch, retries - 1);
+  for (const size_t g : failed) {
+    rigid_[g] = 1;
+    follow_rigidly(g, to.roots[g], seconds);
   }
 }
 
@@ -274,7 +283,7 @@ void GuideSimulation::advance(const SkinMoment& to, const Wind& wind, double sec
     Scratch scratch;
     for (size_t g = range.begin; g < range.end; g += RodPack::kLanes)
       move(std::span(moving).subspan(g, std::min(RodPack::kLanes, range.end - g)), to, wind, seconds, steps,
-           scratch);
+           scratch, kRetries);
   });
 }
 

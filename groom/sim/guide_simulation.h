@@ -59,9 +59,10 @@ class GuideSimulation {
   void find_skin(size_t guide, const SkinMoment& to, double seconds, std::span<Below> below) const;
   void set_planes(size_t guide, const SkinMoment& to, double seconds, std::span<const Below> below,
                   size_t lane, Scratch& scratch) const;
-  /// Moves up to RodPack::kLanes guides that are not always rigid.
+  /// Moves up to RodPack::kLanes guides that are not always rigid. `retries`: how often those that fail are
+  /// moved again in more steps.
   void move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind, double seconds, int steps,
-            Scratch& scratch);
+            Scratch& scratch, int retries);
   void push_outside(size_t guide, const SkinMoment& at, std::span<const Below> below,
                     std::span<const CarriedPlane> others);
 
