@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "image/display_image.h"
+#include "world/coat_motion.h"
 #include "world/frames.h"
 
 namespace pelage {
@@ -42,6 +43,7 @@ FarmRequest request_of(const Options& options, const SceneDescription& scene) {
   request.memory = scene.render.memory.bytes;
   request.saves = !scene.render.adaptive && scene.render.time_limit <= 0;
   for (const auto& groom : scene.grooms.items) request.grows = request.grows || groom.value.cache;
+  if (has_simulated_coat(scene)) request.simulates = print_frames(scene.frames);
   return request;
 }
 

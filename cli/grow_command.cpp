@@ -21,6 +21,7 @@
 #include "render/frame/frame_chunks.h"
 #include "world/assets.h"
 #include "world/compose.h"
+#include "world/frames.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -214,6 +215,40 @@ void require_kept(const Assets& assets, const Options& options) {
 
 std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rfind('.') + 1); }
 
+/// Grows the coats of a frame, and writes their strands if there is an output. Returns false when cancelled.
+bool grow_frame(const SceneDescription& scene, Assets& assets, const Options& options, int frame, Run& run) {
+  World world =
+      run.stage("pose", [&] { return compose(scene, assets, frame, run.job(), CoordinateOrigin::kWorld); });
+  run.statistics().world = world.counts;
+
+  std::vector<Strands> grown;
+  std::vector<std::string> coats;  // of each of them
+  std::vector<MemoryCharge> charges;
+  std::set<std::string> seen;
+  for (const FurPart& part : world.scene.fur) {
+    const std::string groom = groom_of(part);
+    if (!options.groom.empty() && groom != options.groom) continue;
+    // Without an output file, each coat is reported once, not for every animal of a crowd.
+    if (options.output.empty() && (assets.grooms.at(groom)->cache_report() || !seen.insert(groom).second))
+      continue;
+    Growth growth = grow(part, !options.output.empty(), run);
+    if (run.display().cancelled()) return false;
+    report(part.name, growth, run.workers().thread_count());
+    const auto leaf_count = static_cast<int64_t>(growth.leaves.size());
+    run.statistics().frames.growth +=
+        {.chunks = leaf_count, .strands = static_cast<int64_t>(growth.strands), .area = {}};
+    run.statistics().frames.residency.expansions += leaf_count;
+    run.statistics().stages_s["grow"] += growth.seconds;
+    charges.push_back(std::move(growth.charge));
+    if (options.output.empty()) continue;
+    std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
+    coats.resize(grown.size(), part.name);
+  }
+  if (!options.output.empty())
+    write_grown(frame_file_name(options.output, frame), grown, coats, run.display());
+  return true;
+}
+
 }  // namespace
 
 int run_grow(const Options& options) {
@@ -231,10 +266,11 @@ int run_grow(const Options& options) {
   check_stats(options, scene.files);
   if (!options.output.empty()) {
     check_stats(options, {options.output});
-    check_replaces_none("-o", options.output, scene.files);
-    prepare_output(options.output);
+    const std::string one = frame_file_name(options.output, scene.frames.frames.front());
+    check_replaces_none("-o", one, scene.files);
+    prepare_output(one);
   }
-  const int frame = scene.frames.frames.front();
+  const int first = scene.frames.frames.front();
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // Opening, filling and growing caches is a separate stage.
   double cache_s = 0;
@@ -260,34 +296,12 @@ int run_grow(const Options& options) {
     require_kept(*assets, options);
     return 0;
   }
-  World world =
-      run.stage("pose", [&] { return compose(scene, *assets, frame, run.job(), CoordinateOrigin::kWorld); });
-  run.statistics().world = world.counts;
-
-  std::vector<Strands> grown;
-  std::vector<std::string> coats;  // of each of them
-  std::vector<MemoryCharge> charges;
-  std::set<std::string> seen;
-  for (const FurPart& part : world.scene.fur) {
-    const std::string groom = groom_of(part);
-    if (!options.groom.empty() && groom != options.groom) continue;
-    // Without an output file, each coat is reported once, not for every animal of a crowd.
-    if (options.output.empty() && (assets->grooms.at(groom)->cache_report() || !seen.insert(groom).second))
-      continue;
-    Growth growth = grow(part, !options.output.empty(), run);
-    if (run.display().cancelled()) return SignalGuard::exit_code();
-    report(part.name, growth, run.workers().thread_count());
-    const auto leaf_count = static_cast<int64_t>(growth.leaves.size());
-    run.statistics().frames.growth +=
-        {.chunks = leaf_count, .strands = static_cast<int64_t>(growth.strands), .area = {}};
-    run.statistics().frames.residency.expansions += leaf_count;
-    run.statistics().stages_s["grow"] += growth.seconds;
-    charges.push_back(std::move(growth.charge));
-    if (options.output.empty()) continue;
-    std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
-    coats.resize(grown.size(), part.name);
+  // A file name with a place for the frame number asks for every frame.
+  const std::vector<int> frames =
+      has_frame_pattern(options.output) ? scene.frames.frames : std::vector{first};
+  for (const int frame : frames) {
+    if (!grow_frame(scene, *assets, options, frame, run)) return SignalGuard::exit_code();
   }
-  if (!options.output.empty()) write_grown(options.output, grown, coats, run.display());
   run.finish(options);
   if (options.output.empty()) require_kept(*assets, options);
   return 0;

@@ -127,7 +127,9 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   add_rib_use_flags(*grow, options.rib_in);
   add_script_flag(*grow, options);
   CLI::Option* file =
-      grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
+      grow->add_option("-o,--output", options.output,
+                       "Strand file to write (.hair or .tfx): all strands. With a place for the frame "
+                       "number, one file per frame: coat.%04d.hair")
           ->type_name("FILE");
   grow->add_flag("--lod", options.lod,
                  "Write only the strands that remain at the picture's level of detail (render.lod)")
@@ -138,8 +140,10 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   grow->add_flag("--prune", options.prune,
                  "Delete cache files that no groom of the scene needs and that no run has used for an hour, "
                  "and all files of the user's cache of growth");
-  grow->add_option("--frames", texts.frames,
-                   "Frames to compute bounding boxes for; strands grow at the first frame")
+  grow->add_option(
+          "--frames", texts.frames,
+          "Frames to compute bounding boxes for; strands grow at the first frame, or at all frames if -o "
+          "has a place for the frame number")
       ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
   add_cache_flags(*grow, texts);

@@ -52,6 +52,23 @@ FarmTask grow_task(const FarmRequest& request, const std::string& name, int fram
   return task;
 }
 
+/// Makes the motion that growing and rendering read.
+FarmTask simulate_task(const FarmRequest& request) {
+  FarmTask task;
+  task.name = "simulate";
+  task.command = {request.program, "simulate", request.scene};
+  append(task.command, request.arguments);
+  append(task.command, {"--frames", request.simulates});
+  append(task.command, request.flags);
+  task.memory = request.memory;
+  return task;
+}
+
+/// Name of the task after which frames can be rendered; empty: none.
+std::string first_task(const FarmRequest& request) {
+  return request.grows ? "grow" : request.simulates.empty() ? "" : "simulate";
+}
+
 FarmTask render_task(const FarmRequest& request, int frame, const std::string& suffix,
                      const std::optional<PixelBox>& region, const std::string& output,
                      const std::string& after) {
@@ -82,7 +99,7 @@ FarmTask render_task(const FarmRequest& request, int frame, const std::string& s
 
 void add_regions(const FarmRequest& request, int frame, const std::vector<PixelBox>& boxes,
                  std::vector<FarmTask>& tasks) {
-  std::string grown = request.grows ? "grow" : "";
+  std::string grown = first_task(request);
   if (request.grows && frame != request.frames.front()) {
     grown = fmt::format("grow-{:04}", frame);
     tasks.push_back(grow_task(request, grown, frame));
@@ -122,13 +139,17 @@ std::vector<FarmTask> make_farm_plan(const FarmRequest& request) {
   const std::vector<PixelBox> boxes =
       divide_picture(request.width, request.height, request.columns, request.rows);
   std::vector<FarmTask> tasks;
-  if (request.grows) tasks.push_back(grow_task(request, "grow", request.frames.front()));
+  if (!request.simulates.empty()) tasks.push_back(simulate_task(request));
+  if (request.grows) {
+    tasks.push_back(grow_task(request, "grow", request.frames.front()));
+    if (!request.simulates.empty()) tasks.back().after = {"simulate"};
+  }
   for (const int frame : request.frames) {
     if (boxes.size() > 1) {
       add_regions(request, frame, boxes, tasks);
     } else {
-      tasks.push_back(render_task(request, frame, "", {}, frame_file_name(request.output, frame),
-                                  request.grows ? "grow" : ""));
+      tasks.push_back(
+          render_task(request, frame, "", {}, frame_file_name(request.output, frame), first_task(request)));
     }
   }
   return tasks;

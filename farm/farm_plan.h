@@ -24,6 +24,7 @@ struct FarmRequest {
   int columns = 1, rows = 1;  ///< regions that a picture is divided into
   uint64_t memory = 0;        ///< budget of each task that reads the scene (render.memory), in bytes
   bool grows = false;         ///< whether tasks fill the caches of the scene first
+  std::string simulates;      ///< frames whose motion a task simulates first, as for --frames; empty: none
   bool saves = true;          ///< whether frames can have checkpoints, see check_saving()
   double every_s = 60;        ///< seconds between two checkpoints
 };
@@ -31,15 +32,15 @@ struct FarmRequest {
 /// A command that one machine runs. It can be run again after any failure: a render continues from its
 /// checkpoint, and a finished one ends at once.
 struct FarmTask {
-  std::string name;  ///< "grow", "grow-0002", "render-0001", "render-0001-r0c1" or "merge-0001"
+  std::string name;  ///< "simulate", "grow", "grow-0002", "render-0001", "render-0001-r0c1" or "merge-0001"
   std::optional<int> frame = {};
   std::optional<PixelBox> region = {};
   std::vector<std::string> command;  ///< program and arguments
   std::vector<std::string> after;    ///< names of the tasks that must be finished before
-  std::string output;                ///< picture that the task writes; empty for "grow"
+  std::string output;                ///< picture that the task writes; empty for "simulate" and "grow"
   uint64_t memory = 0;               ///< its memory budget in bytes; 0 for "merge"
 
-  /// "grow", "render" or "merge".
+  /// "simulate", "grow", "render" or "merge".
   std::string_view kind() const { return std::string_view(name).substr(0, name.find('-')); }
 };
 
@@ -48,9 +49,10 @@ struct FarmTask {
 /// boxes.
 std::vector<PixelBox> divide_picture(int width, int height, int columns, int rows);
 
-/// Returns the tasks of a request, each after the tasks that it depends on. The task "grow" fills the caches
-/// of the scene and measures the boxes of the first frame. Where frames are divided, a task "grow-NNNN"
-/// measures the boxes of each other frame, which its regions share; else each render measures its own.
+/// Returns the tasks of a request, each after the tasks that it depends on. The task "simulate" makes the
+/// motion of coats with `dynamics`. The task "grow" fills the caches of the scene and measures the boxes of
+/// the first frame. Where frames are divided, a task "grow-NNNN" measures the boxes of each other frame,
+/// which its regions share; else each render measures its own.
 std::vector<FarmTask> make_farm_plan(const FarmRequest& request);
 
 }  // namespace pelage

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/memory_budget.h"
+#include "base/program.h"
 #include "base/program_identity.h"
 #include "groom/operators/follow.h"
 #include "world/asset_files.h"
@@ -25,9 +26,21 @@ std::string text_of(const Keyed<T>& values) {
   return text;
 }
 
+/// Blocks of a scene that do not change motion, and what a command states by itself.
+constexpr std::string_view kPictureKeys[] = {"frames", "image", "render", "lights", "magnets", "materials"};
+
 using Inputs = std::vector<std::pair<std::string, std::string>>;
 
-void add_poses(const SceneDescription& scene, const PartParams& part, Inputs& inputs) {
+void add_character(const FrameCharacter& character, const std::string& prefix, Inputs& inputs) {
+  const CharacterParams& params = *character.params;
+  inputs.emplace_back(prefix + "translate", text_of(params.transform.translate));
+  inputs.emplace_back(prefix + "rotate", text_of(params.transform.rotate));
+  inputs.emplace_back(prefix + "scale", text_of(params.transform.scale));
+  inputs.emplace_back(prefix + "frame_offset", fmt::format("{}", params.frame_offset));
+}
+
+void add_poses(const SceneDescription& scene, const PartParams& part, const std::string& prefix,
+               Inputs& inputs) {
   const auto* skin = scene.skins.find(part.skin.name);
   const std::optional<PosesParams>& own = part.poses ? part.poses : skin->value.poses;
   if (!own) return;
@@ -35,12 +48,12 @@ void add_poses(const SceneDescription& scene, const PartParams& part, Inputs& in
   for (const std::filesystem::path& file : pose_files(*own)) files.add(file_hash(file));
   const M44f to_scene = skin->value.transform.matrix();
   files.add(std::span<const float>(&to_scene[0][0], 16));
-  inputs.emplace_back("poses", fmt::format("{} {} {} {}", own->first, own->count, own->frames_per_pose,
-                                           own->cycle ? "cycle" : "once"));
-  inputs.emplace_back("contents of poses", to_string(files.digest()));
+  inputs.emplace_back(prefix + "poses", fmt::format("{} {} {} {}", own->first, own->count,
+                                                    own->frames_per_pose, own->cycle ? "cycle" : "once"));
+  inputs.emplace_back(prefix + "contents of poses", to_string(files.digest()));
 }
 
-Inputs inputs_of(const SceneDescription& scene, const MovingCoat& coat) {
+Inputs inputs_of(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat) {
   Inputs inputs{{"version", std::to_string(MotionStore::kVersion)},
                 {"machine", arithmetic_identity()},
                 {"coat", to_string(coat.groom->identity())},
@@ -58,12 +71,15 @@ Inputs inputs_of(const SceneDescription& scene, const MovingCoat& coat) {
   inputs.emplace_back("wind.velocity", text_of(coat.params->wind.velocity));
   inputs.emplace_back("wind.gusts", text_of(coat.params->wind.gusts));
   inputs.emplace_back("wind.turbulence", text_of(coat.params->wind.turbulence));
-  const CharacterParams& character = *coat.character.params;
-  inputs.emplace_back("translate", text_of(character.transform.translate));
-  inputs.emplace_back("rotate", text_of(character.transform.rotate));
-  inputs.emplace_back("scale", text_of(character.transform.scale));
-  inputs.emplace_back("frame_offset", fmt::format("{}", character.frame_offset));
-  add_poses(scene, character.parts[coat.part], inputs);
+  add_character(coat.character, "", inputs);
+  add_poses(scene, coat.character.params->parts[coat.part], "", inputs);
+  for (const auto& [character, part] : coat.colliders) {
+    const std::string prefix = fmt::format("{}.{} ", character.name, part);
+    const std::string& skin = character.params->parts[part].skin.name;
+    inputs.emplace_back(prefix + "skin", to_string(assets.skins.at(skin).rest->hash()));
+    add_character(character, prefix, inputs);
+    add_poses(scene, character.params->parts[part], prefix, inputs);
+  }
   return inputs;
 }
 
@@ -72,6 +88,24 @@ ContentHash motion_key(const std::string& coat, const Inputs& inputs) {
   hasher.add(coat);
   for (const auto& [name, value] : inputs) hasher.add(name).add(value);
   return hasher.digest();
+}
+
+/// The command that makes the motion of a frame. Repeats the settings that can change motion.
+std::string simulate_line(const SceneDescription& scene, double frame) {
+  std::vector<std::string> command{"pelage", "simulate",
+                                   scene.files.empty() ? "SCENE" : scene.files.front().string()};
+  for (const std::string& setting : scene.settings) {
+    const bool is_of_picture =
+        std::any_of(std::begin(kPictureKeys), std::end(kPictureKeys), [&](std::string_view key) {
+          return setting.starts_with(key) && (setting[key.size()] == '.' || setting[key.size()] == '=');
+        });
+    if (!is_of_picture) command.insert(command.end(), {"--set", setting});
+  }
+  const std::vector<int>& all = scene.frames.frames;
+  const bool is_of_scene = std::find(all.begin(), all.end(), frame) != all.end();
+  command.insert(command.end(),
+                 {"--frames", is_of_scene ? print_frames(scene.frames) : fmt::format("{}", frame)});
+  return shell_line(command);
 }
 
 /// A folder of its own, because `pelage grow --prune` empties the folder of coats.
@@ -122,14 +156,8 @@ class HalfFrames {
     const auto warn = [&](const std::string& line) { job_.progress.warn(line); };
     std::optional<FrameMotionData> motion = coat_.store.read(frame, coat_.segments(), false, warn);
     if (!motion) {
-      const std::string file = scene_.files.empty() ? "SCENE" : scene_.files.front().string();
-      const std::vector<int>& of_scene = scene_.frames.frames;
-      const bool is_of_scene = std::find(of_scene.begin(), of_scene.end(), frame_) != of_scene.end();
-      throw Error(
-          ErrorKind::kInput,
-          fmt::format("coat '{}' has no simulated motion for frame {}; run: pelage simulate {} --frames {}",
-                      coat_.name, frame_, file,
-                      is_of_scene ? print_frames(scene_.frames) : fmt::format("{}", frame_)));
+      throw Error(ErrorKind::kInput, fmt::format("coat '{}' has no simulated motion for frame {}; run: {}",
+                                                 coat_.name, frame_, simulate_line(scene_, frame_)));
     }
     known_[2 * frame - 1] = std::move(motion->half);
     known_[2 * frame] = std::move(motion->whole);
@@ -156,16 +184,19 @@ std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Asset
   const auto& params = scene.grooms.find(groom)->value;
   if (!params.dynamics) return {};
   const DynamicsParams& dynamics = *params.dynamics;
-  MovingCoat coat{character.name + "." + groom,
-                  character,
-                  part,
-                  assets.grooms.at(groom),
-                  &dynamics,
-                  dynamics.start - dynamics.preroll,
-                  {},
-                  MotionStore(motion_folder(dynamics), {})};
+  MovingCoat coat{character.name + "." + groom,      character, part,
+                  assets.grooms.at(groom),           &dynamics, {},
+                  dynamics.start - dynamics.preroll, {},        MotionStore(motion_folder(dynamics), {})};
   if (dynamics.mode == DynamicsMode::kKinematic) return coat;
-  coat.inputs = inputs_of(scene, coat);
+  for (const NameReference& name : dynamics.collide_with) {
+    const FrameCharacter other{name.name, name.name, &scene.characters.find(name.name)->value, {}};
+    for (size_t other_part = 0; other_part < other.params->parts.size(); ++other_part) {
+      const bool is_own = other.name == character.name && other_part == part;
+      if (!is_own && other.params->parts[other_part].skin.name != kNoSkin)
+        coat.colliders.emplace_back(other, other_part);
+    }
+  }
+  coat.inputs = inputs_of(scene, assets, coat);
   coat.store = MotionStore(motion_folder(dynamics), motion_key(coat.name, coat.inputs));
   return coat;
 }
@@ -181,6 +212,19 @@ std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets
     }
   }
   return coats;
+}
+
+bool has_simulated_coat(const SceneDescription& scene) {
+  for (const auto& character : scene.characters.items) {
+    for (const PartParams& part : character.value.parts) {
+      for (const auto& groom : part.grooms.items) {
+        const auto* coat = scene.grooms.find(groom.name);
+        if (coat && coat->value.dynamics && coat->value.dynamics->mode == DynamicsMode::kSimulated)
+          return true;
+      }
+    }
+  }
+  return false;
 }
 
 std::filesystem::path manifest_file(const MovingCoat& coat) {

@@ -19,6 +19,8 @@ struct MovingCoat {
   size_t part = 0;
   std::shared_ptr<const Groom> groom;
   const DynamicsParams* params = nullptr;
+  /// Characters and their parts that guides must not pass (`collide_with`).
+  std::vector<std::pair<FrameCharacter, size_t>> colliders;
   int start = 0;  ///< frame at which the simulation begins, as groomed
   /// Name and value of everything that determines the motion.
   std::vector<std::pair<std::string, std::string>> inputs;
@@ -35,6 +37,9 @@ struct MovingCoat {
 std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets& assets);
 std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Assets& assets,
                                       const FrameCharacter& character, size_t part, const std::string& groom);
+
+/// Returns whether `pelage simulate` has something to do for a scene.
+bool has_simulated_coat(const SceneDescription& scene);
 
 /// An input of a motion that had another value when the coat was simulated last.
 struct MotionChange {

@@ -44,10 +44,33 @@ SkinMesh triangles_of(const LimitSurface& skin, const Job& job) {
   return tessellate(std::span(&skin, 1), everywhere, options, job);
 }
 
-/// The skin of a moving coat at a time, with what its SkinMoment refers to.
-struct PosedMoment {
+/// Triangles of a skin at a time, to collide with.
+struct PosedTriangles {
   SkinMesh mesh;
   std::optional<ClosestPointTree> tree;
+  Box3f box;
+
+  PosedTriangles(const LimitSurface& skin, const Job& job) : mesh(triangles_of(skin, job)) {
+    if (mesh.triangle_count() == 0) return;
+    tree.emplace(mesh, 0, &job);
+    for (size_t v = 0; v < mesh.vertex_count(); ++v) box.extendBy(mesh.position(v));
+  }
+};
+using Shapes = std::vector<std::shared_ptr<const PosedTriangles>>;
+
+OtherSkin other_skin(const PosedTriangles& before, const PosedTriangles& now) {
+  OtherSkin skin{&before.mesh, &now.mesh, &*before.tree, &*now.tree, before.box, now.box, 0};
+  for (size_t v = 0; v < now.mesh.vertex_count(); ++v) {
+    const V3d moved = V3d(now.mesh.position(v)) - V3d(before.mesh.position(v));
+    skin.motion = std::max(skin.motion, moved.length());
+  }
+  return skin;
+}
+
+/// The skins around a moving coat at a time, with what its SkinMoment refers to.
+struct PosedMoment {
+  std::optional<PosedTriangles> own;
+  Shapes before, others;
   SkinMoment moment;
 };
 
@@ -69,11 +92,13 @@ class CoatSimulation {
     guides.set_state(state, posed(frame)->moment);
   }
 
-  FrameMotionData advance(int frame, GuideSimulation& guides) const {
+  FrameMotionData advance(int frame, GuideSimulation& guides) {
     FrameMotionData motion;
     const double half = 0.5 / scene_.units.fps;
+    if (others_.empty()) others_ = other_shapes(frame - 1);
     for (const double time : {frame - 0.5, static_cast<double>(frame)}) {
       const auto at = posed(time);
+      add_others(time, *at);
       const Wind wind(coat_.params->wind, time, time / scene_.units.fps);
       guides.advance(at->moment, wind, half, coat_.steps_per_half(), job_);
       (time < frame ? motion.half : motion.whole) = guides.turns();
@@ -88,11 +113,34 @@ class CoatSimulation {
  private:
   static constexpr size_t kBytesOfPoint = 600;
 
-  std::unique_ptr<PosedMoment> posed(double time) const {
+  LimitSurface posed_skin(const FrameCharacter& character, size_t part, double time) const {
     CameraParams instant;
     instant.shutter = V2f(0);
-    const CharacterPose pose = pose_character(coat_.character, coat_.part, assets_, instant, time);
-    const LimitSurface skin(pose.topology, pose.shutter.cages.front());
+    const CharacterPose pose = pose_character(character, part, assets_, instant, time);
+    return LimitSurface(pose.topology, pose.shutter.cages.front());
+  }
+
+  /// The skins that guides must not pass, without their own.
+  Shapes other_shapes(double time) const {
+    Shapes shapes;
+    for (const auto& [character, part] : coat_.colliders) {
+      shapes.push_back(std::make_shared<PosedTriangles>(posed_skin(character, part, time), job_));
+      if (!shapes.back()->tree) shapes.pop_back();
+    }
+    return shapes;
+  }
+
+  /// Adds the other skins, and how they came from where they were in the last moment.
+  void add_others(double time, PosedMoment& at) {
+    if (coat_.colliders.empty()) return;
+    at.before = std::move(others_);
+    at.others = others_ = other_shapes(time);
+    for (size_t i = 0; i < at.others.size(); ++i)
+      at.moment.others.push_back(other_skin(*at.before[i], *at.others[i]));
+  }
+
+  std::unique_ptr<PosedMoment> posed(double time) const {
+    const LimitSurface skin = posed_skin(coat_.character, coat_.part, time);
     auto at = std::make_unique<PosedMoment>();
     at->moment.meters_per_unit = unit_;
     const FollicleTree& follicles = coat_.groom->follicles();
@@ -102,10 +150,8 @@ class CoatSimulation {
                                   turn_of(skin.frame(root.face, root.u, root.v))});
     }
     if (!coat_.params->collide) return at;
-    at->mesh = triangles_of(skin, job_);
-    if (at->mesh.triangle_count() == 0) return at;
-    at->tree.emplace(at->mesh, 0, &job_);
-    at->moment.skin = &*at->tree;
+    at->own.emplace(skin, job_);
+    if (at->own->tree) at->moment.skin = &*at->own->tree;
     return at;
   }
 
@@ -147,6 +193,7 @@ class CoatSimulation {
   const Job& job_;
   const double unit_;
   MemoryCharge charge_;
+  Shapes others_;  // of the last moment
 };
 
 }  // namespace

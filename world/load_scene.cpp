@@ -164,6 +164,11 @@ void check_dynamics(const SceneDescription& scene, Problems& problems) {
     problems.add(problem->position.file.empty() ? position : problem->position,
                  "groom " + quote(name) + ": " + problem->message);
   }
+  for (const auto& groom : scene.grooms.items) {
+    if (!groom.value.dynamics) continue;
+    for (const NameReference& other : groom.value.dynamics->collide_with)
+      check_name(other, "character", scene.characters, problems);
+  }
   for (const auto& [name, position, crowd] : scene.crowds.items) {
     for (const NameReference& of : crowd.of) {
       const auto* animal = scene.characters.find(of.name);
@@ -355,7 +360,11 @@ SceneDescription read_scene(const SceneSource& source, const std::vector<Overrid
 
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides,
                             const RibUse& use) {
-  return read_scene({path}, overrides, use);
+  SceneDescription scene = read_scene({path}, overrides, use);
+  for (const Override& setting : overrides) {
+    if (!setting.given) scene.settings.push_back(setting.key + "=" + setting.value);
+  }
+  return scene;
 }
 
 SceneDescription make_scene(const Value& document, const std::vector<Override>& overrides) {

@@ -135,6 +135,8 @@ struct SceneDescription {
   /// All files that this process reads for the scene: the scene file, its included files, and the assets
   /// (asset_files()).
   std::vector<std::filesystem::path> files;
+  /// Overrides that are not given as values, as KEY=VALUE: for commands in messages.
+  std::vector<std::string> settings;
   bool from_rib = false;                  ///< whether the scene is a RIB file (is_rib())
   std::shared_ptr<RibPrograms> programs;  ///< RibUse::programs
   SceneParts parts;                       ///< hashes of the parts of the document, to compare scenes

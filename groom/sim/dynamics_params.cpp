@@ -5,6 +5,21 @@ namespace pelage {
 
 namespace {
 
+void add_contact(Schema<DynamicsParams>& s) {
+  s.key("friction", &DynamicsParams::friction, {.help = "Friction between strand and skin", .min = 0});
+  s.key("collide", &DynamicsParams::collide, {.help = "Whether guides stay outside their skin"});
+  s.key(
+      "collide_with", &DynamicsParams::collide_with,
+      {.help = "Characters whose skins guides stay outside of, as they move. The coat's own character stands "
+               "for its other skins"});
+  s.key("volume", &DynamicsParams::volume,
+        {.unit = "Hz",
+         .help = "Keeps a coat from collapsing: a point below its groomed height above the skin is pushed up "
+                 "by a spring of this frequency. 0 is off; needs `collide`",
+         .min = 0,
+         .max = 1000});
+}
+
 void add_sway(Schema<DynamicsParams>& s) {
   s.key("sway_frequency", &DynamicsParams::sway_frequency,
         {.unit = "Hz", .help = "How often a guide sways in a second", .min = 0, .above_min = true});
@@ -79,8 +94,7 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
            .help = "Force of the air per length of a strand and velocity of the air; a thin strand has about "
                    "1e-4",
            .min = 0});
-    s.key("friction", &DynamicsParams::friction, {.help = "Friction between strand and skin", .min = 0});
-    s.key("collide", &DynamicsParams::collide, {.help = "Whether guides stay outside their skin"});
+    add_contact(s);
     s.key("gravity", &DynamicsParams::gravity, {.unit = "m / s^2", .help = "Acceleration by gravity"});
     s.key("wind", &DynamicsParams::wind, {.help = "The air", .default_text = "still air"});
     s.key("substeps", &DynamicsParams::substeps,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/value_readers.h"
 #include "groom/sim/rod.h"
@@ -28,6 +29,8 @@ struct DynamicsParams {
   float drag = 1e-4f;      ///< Pa s
   float friction = 0.3f;
   bool collide = true;
+  std::vector<NameReference> collide_with;
+  float volume = 0;  ///< Hz
   V3f gravity{0, -9.81f, 0};
   WindParams wind;
   int substeps = 4;

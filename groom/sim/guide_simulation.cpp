@@ -2,12 +2,13 @@
 #include "groom/sim/guide_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/check.h"
 #include "base/job.h"
-#include "geom/closest_point.h"
 
 namespace pelage {
 
@@ -16,6 +17,8 @@ using Imath::Quatd;
 namespace {
 
 constexpr int kNewtonSteps = 2;
+/// A guide whose steps fail is moved again in this many times as many steps, at most so often.
+constexpr int kMoreSteps = 4, kRetries = 2;
 /// A step that stretches a segment by more than this has not converged.
 constexpr double kMostStretch = 0.1;
 
@@ -28,34 +31,18 @@ RodRoot between(const RodRoot& a, const RodRoot& b, double t) {
   return {a.position * (1 - t) + b.position * t, frame.normalize()};
 }
 
-/// The nearest place of a skin, in metres.
-struct SkinPlace {
-  V3d position, outward;
-  double height;  // of the point above it; negative inside
-};
-
-bool nearest_place(const SkinMoment& at, const V3d& point, double limit, SkinPlace& result) {
-  const double unit = at.meters_per_unit;
-  ClosestPoint closest;
-  if (!at.skin->closest(V3f(point / unit), static_cast<float>(limit / unit), closest)) return false;
-  result.position = V3d(closest.position) * unit;
-  V3d away = point - result.position;
-  if (closest.inside) away = -away;
-  const double distance = away.length();
-  // Rounding of positions hides the direction of very short distances.
-  const bool is_clear = distance > 1e-5 * unit;
-  result.outward = is_clear ? away / distance : V3d(closest.normal);
-  result.height = closest.inside ? -distance : distance;
-  return true;
+/// A distance within which the skin is found, although places are rounded to floats.
+double safe_limit(double distance, const V3d& point, double unit) {
+  return distance * 1.001 + 1e-6 * (point.length() + unit);
 }
 
 }  // namespace
 
 struct GuideSimulation::Scratch {
-  Rod::Workspace rod;
-  std::vector<Plane> planes;
-  std::vector<RodContact> contacts;
-  std::vector<V3d> air;
+  RodPack pack;
+  std::vector<Below> below;          // of the nodes of each lane
+  std::vector<CarriedPlane> others;  // of the nodes of each lane; only if there are other skins
+  Wind::Cell air;
 };
 
 GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<GuideShape> shapes,
@@ -86,10 +73,13 @@ GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<Guide
     states_.push_back(rod.rest());
     rods_.push_back(std::move(rod));
     std::vector<double>& clearance = clearance_.emplace_back(segments_ + 1, shape.radius);
+    std::vector<double>& heights = heights_.emplace_back(segments_ + 1, shape.radius);
     for (size_t i = 0; usable && start.skin && i <= segments_; ++i) {
-      SkinPlace below;
-      if (nearest_place(start, points[i], 2 * shape.radius + rods_.back().length(), below))
-        clearance[i] = std::min(clearance[i], below.height);
+      const auto below = nearest_place(*start.skin, start.meters_per_unit, points[i],
+                                       2 * shape.radius + rods_.back().length());
+      if (!below) continue;
+      heights[i] = below->height;
+      clearance[i] = std::min(clearance[i], below->height);
     }
     if (!usable) follow_rigidly(g, start.roots[g], 1);
   }
@@ -107,73 +97,172 @@ void GuideSimulation::follow_rigidly(size_t g, const RodRoot& root, double secon
   state.root = root;
 }
 
-void GuideSimulation::find_planes(size_t g, const SkinMoment& to, double seconds, Scratch& scratch) const {
+void GuideSimulation::find_skin(size_t g, const SkinMoment& to, double seconds,
+                                std::span<Below> below) const {
   const RodState& state = states_[g];
   const RodRoot& root = to.roots[g];
   const Quatd turn = root.frame * ~state.root.frame;
-  for (size_t i = 1; i <= segments_; ++i) {
+  const double length = rods_[g].length();
+  // From the tip down: where a node is high above the skin, its neighbours are known to be.
+  for (size_t i = segments_; i > 0; --i) {
     const V3d expected = root.position + turned(turn, state.positions[i] - state.root.position);
-    Plane& plane = scratch.planes[i];
     // The farthest that the node is expected to come nearer to the skin.
     const V3d falls = state.velocities[i] * seconds - (expected - state.positions[i]);
-    const double limit = std::min(rods_[g].length(), 2 * falls.length() + 0.1 * rods_[g].length());
-    SkinPlace below;
-    plane = {V3d(0), V3d(0), expected, limit};
-    if (!nearest_place(to, expected, limit, below)) continue;
-    plane.height = below.height;
-    plane.normal = turned(~root.frame, below.outward);
-    plane.point = turned(~root.frame, below.position + below.outward * clearance_[g][i] - root.position);
-  }
-}
-
-bool GuideSimulation::move(size_t g, const SkinMoment& to, const Wind& wind, double seconds, int steps,
-                           Scratch& scratch) {
-  RodState& state = states_[g];
-  const RodRoot from = state.root;
-  scratch.planes.assign(segments_ + 1, {});
-  scratch.contacts.assign(to.skin ? segments_ + 1 : 0, {});
-  if (to.skin) find_planes(g, to, seconds, scratch);
-  scratch.air.clear();
-  if (!wind.is_still()) {
-    for (const V3d& position : state.positions) scratch.air.push_back(wind.at(position));
-  }
-  RodForces forces{V3d(params_.gravity), scratch.air, scratch.contacts};
-  for (int k = 1; k <= steps; ++k) {
-    const RodRoot root = between(from, to.roots[g], static_cast<double>(k) / steps);
-    for (size_t i = 1; i < scratch.contacts.size(); ++i) {
-      const Plane& plane = scratch.planes[i];
-      RodContact& contact = scratch.contacts[i];
-      const V3d point = carried(root, plane.point);
-      contact.normal = turned(root.frame, plane.normal);
-      contact.offset = contact.normal.dot(point);
-      contact.motion = point - carried(state.root, plane.point);
+    double limit = std::min(length, 2 * falls.length() + 0.1 * length);
+    below[i] = {{}, expected, limit};
+    if (i < segments_) {
+      // Distances of two places from the skin differ by no more than the distance between the places.
+      const Below& last = below[i + 1];
+      const double at_least = last.distance - (expected - last.from).length();
+      below[i].distance = std::max(limit, at_least);
+      if (at_least > limit) continue;
+      if (last.is_near()) {
+        const double known = (expected - last.place.position).length();
+        limit = std::min(limit, safe_limit(known, expected, to.meters_per_unit));
+      }
     }
-    if (!rods_[g].step(root, forces, seconds / steps, kNewtonSteps, state, scratch.rod)) return false;
+    const auto place = nearest_place(*to.skin, to.meters_per_unit, expected, limit);
+    if (!place) continue;
+    below[i].place = *place;
+    below[i].distance = std::fabs(place->height);
   }
-  return rods_[g].stretch(state) < kMostStretch;
 }
 
-void GuideSimulation::push_outside(size_t g, const SkinMoment& at, Scratch& scratch) {
+void GuideSimulation::set_planes(size_t g, const SkinMoment& to, double seconds, std::span<const Below> below,
+                                 size_t lane, Scratch& scratch) const {
+  const RodRoot& root = to.roots[g];
+  const Quatd to_root = ~root.frame;
+  const RodState& state = states_[g];
+  const Quatd turn = root.frame * ~state.root.frame;
+  for (size_t i = 1; i <= segments_; ++i) {
+    size_t k = 0;
+    if (to.skin) {
+      CarriedPlane hard, soft;
+      if (below[i].is_near()) {
+        const SkinPlace& place = below[i].place;
+        hard.normal = soft.normal = turned(to_root, place.outward);
+        const auto at_height = [&](double height) {
+          return turned(to_root, place.position + place.outward * height - root.position);
+        };
+        hard.point = at_height(clearance_[g][i]);
+        soft.point = at_height(heights_[g][i]);
+      }
+      scratch.pack.set_plane(lane, i, k++, hard);
+      if (params_.volume > 0) scratch.pack.set_plane(lane, i, k++, soft);
+    }
+    if (to.others.empty()) continue;
+    NodeMove node{state.positions[i], root.position + turned(turn, state.positions[i] - state.root.position)};
+    node.reach =
+        2 * (state.velocities[i] * seconds - (node.after - node.before)).length() + 0.1 * rods_[g].length();
+    node.clearance = shapes_[g].radius;
+    CarriedPlane& plane = scratch.others[lane * (segments_ + 1) + i];
+    plane = plane_of_others(to, node, root);
+    scratch.pack.set_plane(lane, i, k, plane);
+  }
+}
+
+void GuideSimulation::move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind,
+                           double seconds, int steps, Scratch& scratch, int retries) {
+  RodPack& pack = scratch.pack;
+  pack.reset(segments_);
+  const size_t nodes = segments_ + 1;
+  scratch.below.resize(RodPack::kLanes * nodes);
+  scratch.others.assign(to.others.empty() ? 0 : RodPack::kLanes * nodes, {});
+  std::array<RodRoot, RodPack::kLanes> from;
+  const auto below_of = [&](size_t lane) { return std::span(scratch.below).subspan(lane * nodes, nodes); };
+  // Lanes without a guide repeat the last one.
+  const auto known = [&](size_t lane) { return std::min(lane, guides.size() - 1); };
+  const auto guide_of = [&](size_t lane) { return guides[known(lane)]; };
+  for (size_t lane = 0; lane < RodPack::kLanes; ++lane) {
+    const size_t g = guide_of(lane);
+    pack.set_rod(lane, rods_[g], states_[g]);
+    from[lane] = states_[g].root;
+    if (to.skin && known(lane) == lane) find_skin(g, to, seconds, below_of(lane));
+    set_planes(g, to, seconds, below_of(known(lane)), lane, scratch);
+    for (size_t i = 0; !wind.is_still() && i < nodes; ++i)
+      pack.set_air(lane, i, wind.at(states_[g].positions[i], scratch.air));
+  }
+  RodPack::Step step{V3d(params_.gravity), seconds / steps, kNewtonSteps, !wind.is_still()};
+  if (to.skin) ++step.planes;
+  if (to.skin && params_.volume > 0) {
+    const double rate = 2 * std::numbers::pi * params_.volume;
+    step.softness[step.planes++] = rate * rate;
+  }
+  if (!to.others.empty()) ++step.planes;
+  for (int k = 1; k <= steps; ++k) {
+    for (size_t lane = 0; lane < RodPack::kLanes; ++lane)
+      pack.set_root(lane, between(from[lane], to.roots[guide_of(lane)], static_cast<double>(k) / steps));
+    pack.step(step);
+  }
+  std::vector<size_t> failed;
+  for (size_t lane = 0; lane < guides.size(); ++lane) {
+    const size_t g = guides[lane];
+    const RodState before = states_[g];
+    pack.get_state(lane, states_[g]);
+    if (!pack.is_finite(lane) || !(rods_[g].stretch(states_[g]) < kMostStretch)) {
+      states_[g] = before;
+      failed.push_back(g);
+    } else if (to.skin || !to.others.empty()) {
+      push_outside(g, to, below_of(lane),
+                   to.others.empty() ? std::span<const CarriedPlane>()
+                                     : std::span(scratch.others).subspan(lane * nodes, nodes));
+    }
+  }
+  if (failed.empty()) return;
+  if (retries > 0) return move(failed, to, wind, seconds, kMoreSteps * steps, scratch, retries - 1);
+  for (const size_t g : failed) {
+    rigid_[g] = 1;
+    follow_rigidly(g, to.roots[g], seconds);
+  }
+}
+
+void GuideSimulation::push_outside(size_t g, const SkinMoment& at, std::span<const Below> below,
+                                   std::span<const CarriedPlane> others) {
   RodState& state = states_[g];
+  const RodRoot& root = at.roots[g];
+  const double length = rods_[g].length();
   const auto raise = [&](size_t i, const V3d& outward, double by) {
     state.positions[i] += outward * by;
     const double into = state.velocities[i].dot(outward);
     if (into < 0) state.velocities[i] -= outward * into;
   };
-  for (size_t i = 1; i <= segments_; ++i) {
-    const RodContact& contact = scratch.contacts[i];
-    const double gap = contact.normal.dot(state.positions[i]) - contact.offset;
-    // Only a node just below its plane is in contact: the plane means nothing far from where it was found.
-    if (gap < 0 && gap > -rods_[g].length() / 4) raise(i, contact.normal, -gap);
-    // Distance from the skin changes by no more than the node has moved since it was measured.
-    const Plane& plane = scratch.planes[i];
-    if (plane.height - (state.positions[i] - plane.from).length() >= clearance_[g][i]) continue;
-    SkinPlace below;
+  // Only a node just below a plane is in contact: the plane means nothing far from where it was found.
+  const auto raise_to = [&](size_t i, const V3d& outward, const V3d& point) {
+    const double gap = outward.dot(state.positions[i] - point);
+    if (gap < 0 && gap > -length / 4) raise(i, outward, -gap);
+  };
+  V3d measured(0);  // a place above the skin, and its distance from it
+  double height = -1;
+  for (size_t i = segments_; i > 0; --i) {
+    V3d& position = state.positions[i];
+    if (!others.empty()) {
+      const CarriedPlane& plane = others[i];
+      if (plane.normal != V3d(0))
+        raise_to(i, turned(root.frame, plane.normal), root.position + turned(root.frame, plane.point));
+      const V3d way = way_out_of_others(at, position, shapes_[g].radius, length);
+      if (way != V3d(0)) raise(i, way.normalized(), way.length());
+    }
+    if (!at.skin) continue;
+    const SkinPlace& place = below[i].place;
+    const bool is_near = below[i].is_near();
+    if (is_near) raise_to(i, place.outward, place.position + place.outward * clearance_[g][i]);
+    // Distances of two places from the skin differ by no more than the distance between the places.
+    const double moved = (position - below[i].from).length();
+    if (!below[i].is_inside() && below[i].distance - moved >= clearance_[g][i]) continue;
+    if (height - (position - measured).length() >= clearance_[g][i]) continue;
+    double limit = length;
+    if (is_near) {
+      const double known = (position - place.position).length();
+      limit = std::min(limit, safe_limit(known, position, at.meters_per_unit));
+    }
     for (int k = 0; k < 2; ++k) {
-      if (!nearest_place(at, state.positions[i], rods_[g].length(), below)) break;
-      const double missing = clearance_[g][i] - below.height;
+      const auto nearest = nearest_place(*at.skin, at.meters_per_unit, position, k == 0 ? limit : length);
+      if (!nearest) break;
+      measured = position;
+      height = nearest->height;
+      const double missing = clearance_[g][i] - nearest->height;
       if (!(missing > 0)) break;
-      raise(i, below.outward, missing);
+      raise(i, nearest->outward, missing);
     }
   }
 }
@@ -181,18 +270,20 @@ void GuideSimulation::push_outside(size_t g, const SkinMoment& at, Scratch& scra
 void GuideSimulation::advance(const SkinMoment& to, const Wind& wind, double seconds, int steps,
                               const Job& job) {
   PELAGE_CHECK(to.roots.size() == guide_count());
-  job.for_each(guide_count(), 16, [&](WorkRange range) {
-    Scratch scratch;
-    for (size_t g = range.begin; g < range.end; ++g) {
-      const RodRoot before = states_[g].root;
-      rigid_[g] = always_rigid_[g] || !move(g, to, wind, seconds, steps, scratch);
-      if (rigid_[g]) {
-        states_[g].root = before;
-        follow_rigidly(g, to.roots[g], seconds);
-      } else if (to.skin) {
-        push_outside(g, to, scratch);
-      }
+  std::vector<size_t> moving;
+  for (size_t g = 0; g < guide_count(); ++g) {
+    rigid_[g] = always_rigid_[g];
+    if (always_rigid_[g]) {
+      follow_rigidly(g, to.roots[g], seconds);
+    } else {
+      moving.push_back(g);
     }
+  }
+  job.for_each(moving.size(), 8 * RodPack::kLanes, [&](WorkRange range) {
+    Scratch scratch;
+    for (size_t g = range.begin; g < range.end; g += RodPack::kLanes)
+      move(std::span(moving).subspan(g, std::min(RodPack::kLanes, range.end - g)), to, wind, seconds, steps,
+           scratch, kRetries);
   });
 }
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "groom/sim/dynamics_params.h"
-#include "groom/sim/rod.h"
+#include "groom/sim/rod_pack.h"
+#include "groom/sim/skin_moment.h"
 #include "groom/strands/guide_turns.h"
 
 namespace pelage {
 
-class ClosestPointTree;
 struct Job;
 
 /// A guide as it was groomed.
@@ -19,16 +19,9 @@ struct GuideShape {
   double radius = 0;        ///< in metres
 };
 
-/// The skin at one time.
-struct SkinMoment {
-  std::vector<RodRoot> roots;  ///< of the guides, in metres; z axis: the normal of the skin
-  /// The skin in scene units. Null: guides may pass it.
-  const ClosestPointTree* skin = nullptr;
-  double meters_per_unit = 1;
-};
-
 /// Simulates the guides of a coat. Each guide is a rod of its own, clamped to the skin, so the result does
-/// not depend on threads. A guide without a finite motion follows the skin rigidly.
+/// not depend on threads or on the guides that are stepped side by side with it. A guide without a finite
+/// motion follows the skin rigidly.
 class GuideSimulation {
  public:
   /// The guides start as groomed. All have the same number of points. `start` is needed only for the call.
@@ -53,24 +46,33 @@ class GuideSimulation {
   void set_state(std::span<const float> state, const SkinMoment& at);
 
  private:
-  struct Plane {
-    V3d point{0}, normal{0};  // in the space of the root; no normal: the skin is too far away to be met
-    V3d from{0};              // where the skin was looked for
-    double height = 0;        // of this place above the skin, at least
+  /// Where the skin is below a node.
+  struct Below {
+    SkinPlace place;      // no direction: the skin is too far away to be met
+    V3d from{0};          // where the skin was looked for
+    double distance = 0;  // of this place from the skin, at least; exact if there is a direction
+    bool is_near() const { return place.outward != V3d(0); }
+    bool is_inside() const { return place.height < 0; }
   };
   struct Scratch;
   void follow_rigidly(size_t guide, const RodRoot& root, double seconds);
-  void find_planes(size_t guide, const SkinMoment& to, double seconds, Scratch& scratch) const;
-  bool move(size_t guide, const SkinMoment& to, const Wind& wind, double seconds, int steps,
-            Scratch& scratch);
-  void push_outside(size_t guide, const SkinMoment& at, Scratch& scratch);
+  void find_skin(size_t guide, const SkinMoment& to, double seconds, std::span<Below> below) const;
+  void set_planes(size_t guide, const SkinMoment& to, double seconds, std::span<const Below> below,
+                  size_t lane, Scratch& scratch) const;
+  /// Moves up to RodPack::kLanes guides that are not always rigid. `retries`: how often those that fail are
+  /// moved again in more steps.
+  void move(std::span<const size_t> guides, const SkinMoment& to, const Wind& wind, double seconds, int steps,
+            Scratch& scratch, int retries);
+  void push_outside(size_t guide, const SkinMoment& at, std::span<const Below> below,
+                    std::span<const CarriedPlane> others);
 
   const DynamicsParams params_;
   size_t segments_ = 0;
   std::vector<GuideShape> shapes_;
   std::vector<Rod> rods_;                          // empty rods are not made: `always_rigid_`
   std::vector<std::vector<Imath::Quatd>> frames_;  // of the segments as groomed, in the space of the root
-  std::vector<std::vector<double>> clearance_;     // min height of each node above the skin, in metres
+  std::vector<std::vector<double>> heights_;       // of each node above the skin as groomed, in metres
+  std::vector<std::vector<double>> clearance_;     // min height of each node, in metres
   std::vector<RodState> states_;
   std::vector<uint8_t> always_rigid_, rigid_;
 };

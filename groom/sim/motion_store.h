@@ -21,7 +21,7 @@ struct FrameMotionData {
 class MotionStore {
  public:
   /// Raised whenever a simulation gives other results than before.
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 3;
 
   /// `key`: hash of everything that determines the motion.
   MotionStore(ContentStore store, const ContentHash& key) : store_(std::move(store)), key_(key) {}

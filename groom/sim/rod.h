@@ -42,13 +42,15 @@ struct RodContact {
   V3d normal{0};      ///< unit; 0 if the node touches nothing
   double offset = 0;  ///< min of dot(normal, position)
   V3d motion{0};      ///< movement of the surface during the step
+  /// Squared angular frequency (1 / s^2) of a plane that is a spring without friction; 0: a hard plane.
+  double softness = 0;
 };
 
 /// What acts on a rod during one step.
 struct RodForces {
   V3d gravity{0};                        ///< m / s^2
   std::span<const V3d> air;              ///< velocity of the air at each node; empty: still air
-  std::span<const RodContact> contacts;  ///< one per node, or empty
+  std::span<const RodContact> contacts;  ///< as many for each node, node by node; or empty
 };
 
 /// A discrete elastic rod: a chain of segments with a material frame each, whose third axis is always the
@@ -105,6 +107,7 @@ class Rod {
   double stretch(const RodState& state) const;
 
  private:
+  friend class RodPack;
   struct Assembly;
   size_t first_joint() const { return is_clamped_ ? 0 : 1; }
   /// Frames before and behind joint `i`: segment i - 1, or the clamp, and segment i.

@@ -3,23 +3,18 @@
 #include <array>
 
 #include "groom/sim/rod.h"
+#include "groom/sim/rod_numbers.h"
 
 namespace pelage {
 
 using Imath::Quatd;
+using namespace rod_numbers;
 
 namespace {
 
 // Unknowns: x, y, z of node i are 4 i .. 4 i + 2; the twist of segment i is 4 i + 3.
 size_t unknowns_of_node(size_t i) { return 4 * i; }
 size_t unknown_of_twist(size_t segment) { return 4 * segment + 3; }
-
-/// Stiffness beyond this many times inertia changes no result and would cost precision.
-constexpr double kStiffestRod = 1e8;
-/// Newton's method ends after an iteration that turns no segment by more than this, in radians.
-constexpr double kConverged = 1e-3;
-/// Stiffness of contacts, as a multiple of inertia.
-constexpr double kContactStiffness = 1e5;
 
 V3d third_axis(const Quatd& frame) {
   const double x = frame.v.x, y = frame.v.y, z = frame.v.z, w = frame.r;
@@ -83,19 +78,21 @@ void Rod::add_nodes(Assembly& a) const {
     const V3d air = a.forces.air.empty() ? V3d(0) : a.forces.air[i];
     V3d force = inertia * (a.work.expected[i] - x) - drag * (x - a.work.start[i] - h * air);
     a.add_block(unknowns_of_node(i), unknowns_of_node(i), inertia + drag, 0, V3d(0));
-    if (!a.forces.contacts.empty()) {
-      const RodContact& contact = a.forces.contacts[i];
+    const size_t planes = a.forces.contacts.size() / masses_.size();
+    for (const RodContact& contact : a.forces.contacts.subspan(i * planes, planes)) {
       const double gap = contact.normal.dot(x) - contact.offset;
-      if (gap < 0 && contact.normal.length2() > 0) {
-        const double stiffness = kContactStiffness * inertia;
-        V3d slip = x - a.work.start[i] - contact.motion;
+      if (!(gap < 0) || !(contact.normal.length2() > 0)) continue;
+      double stiffness = masses_[i] * contact.softness, rub = 0;
+      V3d slip(0);
+      if (!(contact.softness > 0)) {
+        stiffness = kContactStiffness * inertia;
+        slip = x - a.work.start[i] - contact.motion;
         slip -= contact.normal * contact.normal.dot(slip);
-        const double slid = slip.length();
         const double most = material_.friction * stiffness * -gap;
-        const double rub = most > 0 ? std::min(stiffness, most / std::max(slid, 1e-12 * length_)) : 0.0;
-        force -= contact.normal * (stiffness * gap) + slip * rub;
-        a.add_block(unknowns_of_node(i), unknowns_of_node(i), rub, stiffness - rub, contact.normal);
+        if (most > 0) rub = std::min(stiffness, most / std::max(slip.length(), 1e-12 * length_));
       }
+      force -= contact.normal * (stiffness * gap) + slip * rub;
+      a.add_block(unknowns_of_node(i), unknowns_of_node(i), rub, stiffness - rub, contact.normal);
     }
     a.add_force(unknowns_of_node(i), force);
   }
@@ -189,8 +186,9 @@ std::optional<double> Rod::apply(RodState& state, Workspace& work) const {
     const double length = edge.length();
     if (!(length > 0)) return {};
     const V3d along = edge / length;
-    const double half = std::clamp(work.matrix.right(unknown_of_twist(i)) * part / 2, -0.5, 0.5);
-    const Quatd turn(1, along * std::tan(half));
+    const double half =
+        std::clamp(work.matrix.right(unknown_of_twist(i)) * part / 2, -kMaxHalfTwist, kMaxHalfTwist);
+    const Quatd turn(1, along * half);  // by twice the arc tangent of `half`: Newton's method allows it
     state.frames[i] =
         (turn * smallest_turn(third_axis(state.frames[i]), along) * state.frames[i]).normalize();
   }

@@ -53,8 +53,25 @@ double gust(uint64_t seed, double t) {
   return a + (b - a) * s;
 }
 
+/// Random potentials at the corners of a cell.
+const std::array<V3d, 8>& corner_potentials(uint64_t seed, const std::array<int64_t, 3>& cell,
+                                            Wind::Cell::Corners& known) {
+  if (known.is_known && known.seed == seed && known.place == cell) return known.potentials;
+  known.is_known = true;
+  known.seed = seed;
+  known.place = cell;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const unsigned i = corner & 1, j = (corner >> 1) & 1, k = corner >> 2;
+    const uint64_t h = mix64(seed + static_cast<uint64_t>(cell[0] + i) * 0x9e3779b97f4a7c15ull +
+                             static_cast<uint64_t>(cell[1] + j) * 0xc2b2ae3d27d4eb4full +
+                             static_cast<uint64_t>(cell[2] + k) * 0x165667b19e3779f9ull);
+    known.potentials[corner] = V3d(signed_float(h), signed_float(h << 21), signed_float(h << 42));
+  }
+  return known.potentials;
+}
+
 /// Curl of a vector of three smooth noises, in cells of size 1. Root mean square 1, measured.
-V3d curl_noise(uint64_t seed, const V3d& x) {
+V3d curl_noise(uint64_t seed, const V3d& x, Wind::Cell::Corners& known) {
   std::array<int64_t, 3> cell;
   std::array<std::array<double, 2>, 3> weight, slope;
   for (unsigned k = 0; k < 3; ++k) {
@@ -63,17 +80,13 @@ V3d curl_noise(uint64_t seed, const V3d& x) {
     weight[k] = {1 - s.value, s.value};
     slope[k] = {-s.slope, s.slope};
   }
+  const std::array<V3d, 8>& potentials = corner_potentials(seed, cell, known);
   V3d curl(0);
   for (unsigned corner = 0; corner < 8; ++corner) {
     const unsigned i = corner & 1, j = (corner >> 1) & 1, k = corner >> 2;
-    // One mix per corner: this is the inner loop of windy simulations.
-    const uint64_t h = mix64(seed + static_cast<uint64_t>(cell[0] + i) * 0x9e3779b97f4a7c15ull +
-                             static_cast<uint64_t>(cell[1] + j) * 0xc2b2ae3d27d4eb4full +
-                             static_cast<uint64_t>(cell[2] + k) * 0x165667b19e3779f9ull);
-    const V3d potential(signed_float(h), signed_float(h << 21), signed_float(h << 42));
     const V3d gradient(slope[0][i] * weight[1][j] * weight[2][k], weight[0][i] * slope[1][j] * weight[2][k],
                        weight[0][i] * weight[1][j] * slope[2][k]);
-    curl += gradient.cross(potential);
+    curl += gradient.cross(potentials[corner]);
   }
   constexpr double kRms = 1.855;
   return curl / kRms;
@@ -89,7 +102,7 @@ Wind::Wind(const WindParams& params, double frame, double seconds)
       turbulence_(params.turbulence.at(frame)),
       is_still_(mean_ == V3d(0) && turbulence_ == 0) {}
 
-V3d Wind::at(const V3d& place) const {
+V3d Wind::at(const V3d& place, Cell& known) const {
   if (is_still_) return V3d(0);
   const auto seed = static_cast<uint64_t>(params_.seed);
   V3d velocity = mean_;
@@ -103,8 +116,8 @@ V3d Wind::at(const V3d& place) const {
     const int64_t cell = lattice(age);
     const double s = smooth_step(age - static_cast<double>(cell)).value;
     const V3d x = place / params_.eddy_size;
-    const V3d a = curl_noise(hash64(seed, cell, random_use("turbulence")), x),
-              b = curl_noise(hash64(seed, cell + 1, random_use("turbulence")), x);
+    const V3d a = curl_noise(hash64(seed, cell, random_use("turbulence")), x, known.older),
+              b = curl_noise(hash64(seed, cell + 1, random_use("turbulence")), x, known.newer);
     // Keeps the root mean square of independent fields.
     velocity += (a * (1 - s) + b * s) * (turbulence_ / std::sqrt((1 - s) * (1 - s) + s * s));
   }

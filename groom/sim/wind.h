@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/keyed.h"
@@ -28,8 +29,21 @@ class Wind {
   /// The wind at a frame. `seconds`: time of this frame.
   Wind(const WindParams& params, double frame, double seconds);
   bool is_still() const { return is_still_; }
-  /// Velocity in m / s at a place in metres.
-  V3d at(const V3d& place) const;
+  /// The cell of the noise that was used last, for one thread. It makes neighbouring places cheap.
+  struct Cell {
+    struct Corners {
+      uint64_t seed = 0;
+      std::array<int64_t, 3> place{};
+      bool is_known = false;
+      std::array<V3d, 8> potentials;
+    } older, newer;
+  };
+  /// Velocity in m / s at a place in metres. `cell`: of any earlier call; it does not change the result.
+  V3d at(const V3d& place, Cell& cell) const;
+  V3d at(const V3d& place) const {
+    Cell cell;
+    return at(place, cell);
+  }
 
  private:
   const WindParams& params_;

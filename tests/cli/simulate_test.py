@@ -45,12 +45,16 @@ class Simulate(ProgramTest):
     def test_pictures_move_and_name_what_is_missing(self):
         folder = ["--set", "grooms.coat.dynamics.directory=a"]
         err = self.render("-o", "a.exr", "--frames", "3", *MOVING, *folder, code=3)[1]
-        self.assertIn("coat 'box.coat' has no simulated motion for frame 3; run: pelage simulate scene.yaml --frames 3",
-                      err)
+        self.assertIn("coat 'box.coat' has no simulated motion for frame 3; run: pelage simulate scene.yaml --set ", err)
+        self.assertIn(" --frames 3\n", err)
         self.assertEqual(err.count("\n"), 1)
         (self.path / "zoo.yaml").write_text("pelage: 1\ninclude: scene.yaml\n")
         err = self.run_pelage("render", "zoo.yaml", "-o", "a.exr", *MOVING, *folder, code=3)[1]
-        self.assertIn("run: pelage simulate zoo.yaml --frames 1", err)
+        self.assertIn(f"run: pelage simulate zoo.yaml --set '{DYNAMICS}' --set {folder[1]} --frames 1", err)
+        # The plan of a shot makes the motion first.
+        plan = self.run_pelage("farm", "plan", "scene.yaml", "--frames", "1-3", "-o", "a.%04d.exr", *MOVING)[0]
+        self.assertEqual(plan.splitlines()[0],
+                         f"pelage simulate scene.yaml --set '{DYNAMICS}' --frames 1-3")
         self.simulate("3", "a")
         moved = self.pixels(3, *MOVING, *folder)
         self.assertNotEqual(moved, self.pixels(3))
@@ -58,6 +62,30 @@ class Simulate(ProgramTest):
         # Before the simulation begins, the coat is as groomed.
         self.assertEqual(self.pixels(-4, *MOVING, *folder, "--set", "camera.shutter=[0, 0]"),
                          self.pixels(-4, "--set", "camera.shutter=[0, 0]"))
+
+    def test_strands_are_written_frame_by_frame(self):
+        moving = [*MOVING, "--set", "grooms.coat.dynamics.directory=a"]
+        self.simulate("1-3", "a")
+        self.run_pelage("grow", "scene.yaml", "-o", "coat.%02d.hair", "--frames", "1-3x2", *moving)
+        self.run_pelage("grow", "scene.yaml", "-o", "one.hair", "--frames", "3", *moving)
+        first, third = ((self.path / f"coat.0{i}.hair").read_bytes() for i in (1, 3))
+        self.assertFalse((self.path / "coat.02.hair").exists())
+        self.assertNotEqual(first, third)
+        self.assertEqual(third, (self.path / "one.hair").read_bytes())
+
+    def test_other_skins_move_guides(self):
+        # A second box falls on the first one.
+        other = ["--set", "characters.lid={parts: [{skin: cube, material: hide}], transform: {translate: {keys: "
+                 "{1: [0, 3, 0], 2: [0, 1.3, 0]}}}}"]
+        collide = other + ["--set", "grooms.coat.dynamics.collide_with=[lid, box]"]
+        self.simulate("1-2", "a", "--threads", "1", *other)
+        self.simulate("1-2", "b", "--threads", "1", *collide)
+        self.simulate("1-1", "c", *collide)
+        self.simulate("2-2", "c", "--threads", "2", *collide)
+        self.assertEqual(self.motion("b"), self.motion("c"))
+        self.assertNotEqual(sorted(self.motion("a").values()), sorted(self.motion("b").values()))
+        out = self.simulate("1", "b", "--explain", *collide, "--set", "characters.lid.transform.scale=0.5")[0]
+        self.assertRegex(out, r"lid\.0 scale +0: 0\.5  \(stale: was 0: 1\)")
 
     def test_kinematic_coats_need_no_simulation(self):
         kinematic = ["--set", "grooms.coat.dynamics={mode: kinematic, guides: 20}", "--set",
@@ -79,6 +107,7 @@ class Simulate(ProgramTest):
     def test_mistakes_get_one_line(self):
         for key, message in {"dynamics={after: lenght}": "no operator called 'lenght'; did you mean 'length'?",
                              "dynamics={stiffness: 3}": "'stiffness'",
+                             "dynamics={collide_with: [bix]}": "there is no character 'bix'; did you mean 'box'?",
                              "dynamics={density: 0}": "expected a number > 0"}.items():
             err = self.run_pelage("simulate", "scene.yaml", "--set", "grooms.coat." + key, code=3)[1]
             self.assertIn(message, err)

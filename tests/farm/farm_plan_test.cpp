@@ -37,6 +37,19 @@ TEST(FarmPlan, AFrameIsATaskByItself) {
             "farm/checkpoints --every 60s --resume --stats farm/stats/0004.json");
 }
 
+TEST(FarmPlan, MotionComesBeforeCachesAndPictures) {
+  FarmRequest moving = request();
+  moving.simulates = "1-4x3";
+  std::vector<FarmTask> tasks = make_farm_plan(moving);
+  EXPECT_EQ(tasks[0].kind(), "simulate");
+  EXPECT_EQ(shell_line(tasks[0].command), "pelage simulate rat.yaml --set render.samples=4 --frames 1-4x3");
+  EXPECT_EQ(tasks[1].after, std::vector<std::string>{"simulate"});
+  moving.grows = true;
+  tasks = make_farm_plan(moving);
+  EXPECT_EQ(tasks[1].after, std::vector<std::string>{"simulate"});
+  EXPECT_EQ(tasks[2].after, std::vector<std::string>{"grow"});
+}
+
 TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
   FarmRequest regions = request();
   regions.columns = regions.rows = 2;

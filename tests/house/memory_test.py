@@ -19,7 +19,7 @@ PELAGE = sys.argv.pop(1)
 MIB = 1 << 20
 LIMIT = 64 * MIB
 SOAKS = {"colony.yaml", "colony_100.yaml", "half_billion.yaml", "bear.yaml", "presets.yaml",
-         "windy.yaml"}  # minutes; colony_small is one in little, rat.yaml is windy.yaml without a simulation
+         "windy.yaml", "mane.yaml"}  # minutes, or need a simulation; colony_small is one in little, rat.yaml is windy.yaml
 
 SCENE = """pelage: 1
 camera: {{position: [0, 6, 12], look_at: [0, 0, 0]}}
