@@ -10,7 +10,7 @@
 
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "geom/polygon_cut.h"
 #include "image/texture_library.h"
 #include "render/light/aim.h"
@@ -99,8 +99,8 @@ struct LightMaker {
   }
 
   std::unique_ptr<Light> operator()(const MeshLightParams& p) const {
-    std::vector<MeshLight::Triangle> triangles =
-        with_place_of(p.file, [&] { return triangles_of(read_obj(p.file.path), p.transform.matrix()); });
+    std::vector<MeshLight::Triangle> triangles = with_place_of(
+        p.file, [&] { return triangles_of(read_mesh_file(p.file.path), p.transform.matrix()); });
     double area = 0;
     for (MeshLight::Triangle& t : triangles) {
       for (V3f& corner : t.corners) corner -= origin;
