@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 
 #include "base/error.h"
 
@@ -45,14 +44,14 @@ void value_at(const UsdPrimvar& primvar, const CurvePlace& place, const UsdCurve
 class CurveJoiner {
  public:
   explicit CurveJoiner(std::vector<UsdCurveBatch> batches) : batches_(std::move(batches)) {
-    std::optional<CurveBasis> common = batches_.front().form.native();
+    constexpr CurveBasis kNone = CurveBasis::kBezier;  // which strands never have
+    const CurveBasis common = batches_.front().form.native().value_or(kNone);
     for (const UsdCurveBatch& batch : batches_) {
-      if (batch.form.native() != common) common.reset();
+      resample_ |= common == kNone || batch.form.native().value_or(kNone) != common;
       has_uv_ |= !batch.root_uv.values.empty();
       for (const auto& [name, primvar] : batch.attributes) declare(name, primvar);
     }
-    resample_ = !common;
-    arrays_.basis = common.value_or(CurveBasis::kCatmullRom);
+    arrays_.basis = resample_ ? CurveBasis::kCatmullRom : common;
     arrays_.first_point.push_back(0);
   }
 
@@ -94,16 +93,37 @@ class CurveJoiner {
       const uint32_t count = batch.form.points(n, resample_);
       if (arrays_.first_point.back() > UINT32_MAX - count)
         throw Error(ErrorKind::kInput, "the curves have more than 4,294,967,295 points");
-      points.clear();
-      for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
-      add_points(batch, place, points);
-      add_attributes(batch, place, points);
+      if (is_plain(batch)) {
+        add_plain(batch, place, count);
+      } else {
+        points.clear();
+        for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
+        add_points(batch, place, points);
+        add_attributes(batch, place, points);
+      }
       if (has_uv_) add_uv(batch, place, n);
       if (!batch.ids.empty()) ids_.push_back(batch.ids[place.curve]);
       arrays_.first_point.push_back(arrays_.first_point.back() + count);
       ++place.curve;
       place.first_vertex += n;
       place.first_varying += batch.form.varying(n);
+    }
+  }
+
+  /// Whether points are vertices, and nothing but widths comes with them: most curves of large files.
+  bool is_plain(const UsdCurveBatch& batch) const {
+    const bool vertex_widths = batch.widths.values.empty() || batch.widths.interpolation == "vertex";
+    return !resample_ && batch.form.wrap != UsdCurveForm::Wrap::kPeriodic && vertex_widths &&
+           arrays_.attributes.empty() && batch.to_world == M44f();
+  }
+
+  void add_plain(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t count) {
+    const size_t first = arrays_.points.size();
+    arrays_.points.resize(first + 4 * size_t{count});
+    for (size_t i = 0; i < count; ++i) {
+      float* to = &arrays_.points[first + 4 * i];
+      std::copy_n(&batch.points[3 * (place.first_vertex + i)], 3, to);
+      if (!batch.widths.values.empty()) to[3] = batch.widths.values[place.first_vertex + i];
     }
   }
 

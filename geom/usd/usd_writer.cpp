@@ -2,6 +2,7 @@
 #include "geom/usd/usd_writer.h"
 
 #include <iterator>
+#include <vector>
 
 #include <fmt/compile.h>
 
@@ -10,9 +11,8 @@ namespace {
 
 constexpr size_t kUsdBlock = size_t(1) << 20;
 
-void append_number(fmt::memory_buffer& text, float value) {
-  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), value);
-}
+/// Max length of the text of a float, with the characters around it.
+constexpr size_t kNumberLength = 32;
 
 void append_text(fmt::memory_buffer& buffer, std::string_view text) {
   buffer.append(text.data(), text.data() + text.size());
@@ -76,14 +76,17 @@ void UsdWriter::array(std::string_view text, std::span<const float> values, Layo
                       std::string_view metadata) {
   begin(text);
   append_text(text_, "[");
+  std::vector<char> element(kNumberLength * layout.components + 4);
   for (size_t i = 0; i + layout.components <= values.size(); i += layout.stride) {
-    if (i > 0) append_text(text_, ", ");
-    if (layout.components > 1) text_.push_back('(');
+    char* end = element.data();
+    if (i > 0) *end++ = ',', *end++ = ' ';
+    if (layout.components > 1) *end++ = '(';
     for (size_t c = 0; c < layout.components; ++c) {
-      if (c > 0) append_text(text_, ", ");
-      append_number(text_, values[i + c]);
+      if (c > 0) *end++ = ',', *end++ = ' ';
+      end = fmt::format_to(end, FMT_COMPILE("{}"), values[i + c]);
     }
-    if (layout.components > 1) text_.push_back(')');
+    if (layout.components > 1) *end++ = ')';
+    text_.append(element.data(), end);
     flush_if_long();
   }
   append_text(text_, "]");

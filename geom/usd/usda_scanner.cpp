@@ -2,6 +2,7 @@
 #include "geom/usd/usda_scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "base/visible_text.h"
@@ -15,6 +16,13 @@ bool is_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80;
 }
+/// Which characters end a run that skip_brackets() need not look at.
+constexpr auto kSpecial = [] {
+  std::array<bool, 256> special{};
+  for (const char c : std::string_view("[](){}\"'@#")) special[static_cast<unsigned char>(c)] = true;
+  return special;
+}();
+
 bool is_name_part(char c) { return is_name_start(c) || (c >= '0' && c <= '9'); }
 
 }  // namespace
@@ -143,6 +151,8 @@ void UsdaScanner::skip_brackets() {
   char closing[kMaxBrackets];
   size_t depth = 0;
   for (; at_ < text_.size(); ++at_) {
+    while (at_ < text_.size() && !kSpecial[static_cast<unsigned char>(text_[at_])]) ++at_;
+    if (at_ == text_.size()) break;
     switch (text_[at_]) {
       case '[':
       case '(':
