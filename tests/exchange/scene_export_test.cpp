@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exchange/scene_export.h"
 
+#include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -23,6 +25,7 @@ class SceneExport : public testing::Test {
   std::filesystem::path write(ExportFormat format, std::vector<Override> overrides = {},
                               const std::string& name = "out") {
     QuietJob job;
+    overrides.insert(overrides.begin(), kColor);
     const SceneDescription scene = load_scene(files_.scene(), overrides);
     const auto assets = load_assets(scene, job);
     const std::filesystem::path folder = files_.path(name);
@@ -146,8 +149,7 @@ TEST_F(SceneExport, UsdLightsAndCamera) {
 /// Curves of a pbrt file: P of each.
 TEST_F(SceneExport, PbrtHasTheStrandsAsCurves) {
   const std::filesystem::path folder =
-      write(ExportFormat::kPbrt,
-            {kStill, kColor, {"materials.fur.model", "chiang"}, {"materials.fur.diffuse", "null"}});
+      write(ExportFormat::kPbrt, {kStill, {"materials.fur", "{model: chiang, color: 0.3}"}});
   const std::string scene = read_file(folder / "fur.pbrt");
   for (const char* part :
        {"Camera \"perspective\"", "WorldBegin", "AreaLightSource \"diffuse\" \"rgb L\" [ 3 6 9 ]",
@@ -178,7 +180,7 @@ TEST_F(SceneExport, MitsubaHasTheStrandsAsBSplines) {
     points.push_back(p);
   }
   ASSERT_EQ(points.size(), 7u);
-  const V3f root = (points[0] + 4 * points[1] + points[2]) / 6;
+  const V3f root = (points[0] + 4.0f * points[1] + points[2]) / 6.0f;
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(root[axis], points[1][axis], 1e-5);
 }
 
