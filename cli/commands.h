@@ -19,6 +19,8 @@ int run_convert(const Options& options);
 int run_motion_blur(const Options& options);
 int run_stereo(const Options& options);
 int run_rib(const Options& options);
+int run_validate(const Options& options);
+int run_export(const Options& options);
 int run_procedural(const Options& options);
 int run_view(const Options& options);
 int run_why(const Options& options);

@@ -10,10 +10,11 @@ namespace pelage {
 
 int run_convert(const Options& options) {
   if (!is_strand_file(options.output)) {
-    throw Error(ErrorKind::kArguments, options.output + ": strands are written as .hair or .tfx");
+    throw Error(ErrorKind::kArguments, options.output + ": strands are written as " + kStrandEndings);
   }
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width, true});
   ProgressDisplay display(options.progress, [] { return false; });
+  for (const std::string& warning : file.warnings) display.warn(warning);
   warn_of_losses(options.output, file.strands, display);
   // Widths that neither the file nor the user states stay unstated.
   const bool has_widths = file.assumed_width == 0;

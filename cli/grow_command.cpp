@@ -261,7 +261,7 @@ int run_grow(const Options& options) {
                                            did_you_mean(options.groom, scene.grooms.names()));
   }
   if (!options.output.empty() && !is_strand_file(options.output)) {
-    throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
+    throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as " + kStrandEndings);
   }
   check_stats(options, scene.files);
   if (!options.output.empty()) {

@@ -6,11 +6,22 @@
 #include "cli/info.h"
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "rib/document/rib_document.h"
 
 namespace pelage {
 namespace {
+
+/// A file of USD may have curves, meshes or both.
+std::string describe_usd(const Options& options) {
+  std::string text;
+  try {
+    text = describe_strands(read_strands(options.input, {options.basis, options.default_width}));
+  } catch (const Error& without_curves) {
+    return describe_mesh(read_mesh_file(options.input), options.input);
+  }
+  return text;
+}
 
 std::string describe_file(const Options& options) {
   const std::filesystem::path path = options.input;
@@ -20,14 +31,14 @@ std::string describe_file(const Options& options) {
     return describe_scene(read_scene(options, display));
   }
   if (!options.overrides.empty()) throw Error(ErrorKind::kArguments, "--set works on scene files only");
-  if (kind == ".hair" || kind == ".tfx") {
+  if (is_usd_file(path)) return describe_usd(options);
+  if (is_strand_file(path))
     return describe_strands(read_strands(path, {options.basis, options.default_width}));
-  }
-  if (kind == ".obj") return describe_mesh(read_obj(path), options.input);
+  if (kind == ".obj") return describe_mesh(read_mesh_file(path), options.input);
   if (kind == ".exr") return describe_exr(read_exr(path));
   if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},
-              "unsupported file type; expected .yaml, .rib, .hair, .tfx, .obj, .exr or .cache");
+              "unsupported file type; expected .yaml, .rib, .hair, .tfx, .usda, .obj, .exr or .cache");
 }
 
 }  // namespace

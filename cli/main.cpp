@@ -32,8 +32,12 @@ int run(const pelage::Options& options) {
       return pelage::run_motion_blur(options);
     case Command::kStereo:
       return pelage::run_stereo(options);
+    case Command::kValidate:
+      return pelage::run_validate(options);
     case Command::kRib:
       return pelage::run_rib(options);
+    case Command::kExport:
+      return pelage::run_export(options);
     case Command::kProcedural:
       return pelage::run_procedural(options);
     case Command::kView:

@@ -9,7 +9,7 @@
 #include "base/nearest_name.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "starter/starter_scene.h"
 
 namespace pelage {
@@ -54,7 +54,7 @@ int run_new(const Options& options) {
   if (lower_extension(options.input) != ".obj")
     throw Error(ErrorKind::kInput, {options.input, 0, 0}, "unsupported file type; expected an .obj mesh");
   starter.mesh = path_from(scene, options.input);
-  starter.shape = body_shape(read_obj(options.input), options.input, up, facing);
+  starter.shape = body_shape(read_mesh_file(options.input), options.input, up, facing);
   write_file(scene, starter_scene_text(starter));
   std::cout << fmt::format("{}: a {} coat on a body that faces {}, with {} up\n", scene.string(),
                            starter.look.name, starter.shape.facing.name(), starter.shape.up.name());

@@ -12,6 +12,7 @@
 #include "base/nearest_name.h"
 #include "cli/command_line.h"
 #include "cli/common_flags.h"
+#include "cli/exchange_flags.h"
 #include "cli/lab_program.h"
 #include "cli/number_checks.h"
 #include "cli/post_flags.h"
@@ -31,6 +32,7 @@ struct Texts : RunTexts {
   PictureTexts picture;
   std::string checkpoint_every;
   FarmTexts farm;
+  std::string export_format;
 };
 
 void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
@@ -128,7 +130,7 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   add_script_flag(*grow, options);
   CLI::Option* file =
       grow->add_option("-o,--output", options.output,
-                       "Strand file to write (.hair or .tfx): all strands. With a place for the frame "
+                       "Strand file to write (.hair, .tfx or .usda): all strands. With a place for the frame "
                        "number, one file per frame: coat.%04d.hair")
           ->type_name("FILE");
   grow->add_flag("--lod", options.lod,
@@ -151,7 +153,7 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* info = app.add_subcommand("info", "Describe a scene, strand file, mesh, EXR or cache file");
-  info->add_option("FILE", options.input, "A .yaml, .rib, .hair, .tfx, .obj, .exr or .cache file")
+  info->add_option("FILE", options.input, "A .yaml, .rib, .hair, .tfx, .usda, .obj, .exr or .cache file")
       ->required();
   info->add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
@@ -160,10 +162,18 @@ void add_info(CLI::App& app, Options& options, Texts& texts) {
 }
 
 void add_convert(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* convert = app.add_subcommand("convert", "Convert between strand formats (.hair, .tfx)");
+  CLI::App* convert = app.add_subcommand("convert", "Convert between strand formats (.hair, .tfx, .usda)");
   convert->add_option("IN", options.input, "Strand file to read")->required();
   convert->add_option("OUT", options.output, "Strand file to write")->required();
   add_strand_flags(*convert, options, texts);
+}
+
+void add_validate(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* validate = app.add_subcommand(
+      "validate",
+      "Check a strand file for what other programs stumble over; exits with 3 if there is a problem");
+  validate->add_option("FILE", options.input, "A .usda, .hair or .tfx file")->required();
+  add_strand_flags(*validate, options, texts);
 }
 
 void add_post(CLI::App& app, Options& options, Texts& texts) {
@@ -203,6 +213,16 @@ void add_rib(CLI::App& app, Options& options, Texts& texts) {
   add_procedural_flags(
       *app.add_subcommand("procedural", "Answer requests of RunProgram on standard input with RIB"),
       options.rib);
+}
+
+void add_export(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* command =
+      app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4 or Mitsuba 3");
+  add_scene_flags(*command, options, texts);
+  add_export_flags(*command, options.output, texts.export_format);
+  command->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
+  add_run_flags(*command, options, texts);
+  add_cache_flags(*command, texts);
 }
 
 void add_farm(CLI::App& app, Options& options, Texts& texts) {
@@ -264,28 +284,25 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_info(app, options, texts);
   add_merge(app, options, texts);
   add_rib(app, options, texts);
+  add_export(app, options, texts);
   add_farm(app, options, texts);
   add_convert(app, options, texts);
+  add_validate(app, options, texts);
   add_post(app, options, texts);
   add_manual(app, options, texts);
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{{"new", Command::kNew},
-                                                    {"render", Command::kRender},
-                                                    {"view", Command::kView},
-                                                    {"why", Command::kWhy},
-                                                    {"grow", Command::kGrow},
-                                                    {"simulate", Command::kSimulate},
-                                                    {"info", Command::kInfo},
-                                                    {"merge", Command::kMerge},
-                                                    {"farm", Command::kFarm},
-                                                    {"convert", Command::kConvert},
-                                                    {"motionblur", Command::kMotionBlur},
-                                                    {"stereo", Command::kStereo},
-                                                    {"rib", Command::kRib},
-                                                    {"procedural", Command::kProcedural},
-                                                    {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{
+      {"new", Command::kNew},           {"render", Command::kRender},
+      {"view", Command::kView},         {"why", Command::kWhy},
+      {"grow", Command::kGrow},         {"simulate", Command::kSimulate},
+      {"info", Command::kInfo},         {"merge", Command::kMerge},
+      {"farm", Command::kFarm},         {"convert", Command::kConvert},
+      {"validate", Command::kValidate}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo},     {"rib", Command::kRib},
+      {"export", Command::kExport},     {"procedural", Command::kProcedural},
+      {"manual", Command::kManual}};
   return names;
 }
 
@@ -306,6 +323,7 @@ void interpret(const Texts& texts, Options& options) {
   }
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
+  options.export_format = interpret_export(texts.export_format);
   interpret_farm(texts.farm, options.output, options.farm);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
@@ -325,8 +343,8 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
   if (!parse_command_line(*app, arguments, out)) return {};
   options.command = command_names().at(arguments[0]);
   interpret(texts, options);
-  constexpr Command kWithCache[] = {Command::kRender, Command::kView, Command::kWhy, Command::kGrow,
-                                    Command::kSimulate};
+  constexpr Command kWithCache[] = {Command::kRender, Command::kView,     Command::kWhy,
+                                    Command::kGrow,   Command::kSimulate, Command::kExport};
   options.cache = !texts.no_cache && std::find(std::begin(kWithCache), std::end(kWithCache),
                                                options.command) != std::end(kWithCache);
   return options;

@@ -12,6 +12,7 @@
 #include "cli/picture_flags.h"
 #include "cli/rib_flags.h"
 #include "cli/run_options.h"
+#include "exchange/scene_export.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
 #include "post/merge_pieces.h"
@@ -30,9 +31,11 @@ enum class Command {
   kMerge,
   kFarm,
   kConvert,
+  kValidate,
   kMotionBlur,
   kStereo,
   kRib,
+  kExport,
   kProcedural,
   kManual
 };
@@ -71,8 +74,9 @@ struct Options : RunOptions {
 
   StarterOptions starter;  ///< new: its flags
 
-  RibOptions rib;    ///< rib, procedural: their flags
-  FarmOptions farm;  ///< farm: its flags
+  RibOptions rib;                                   ///< rib, procedural: their flags
+  ExportFormat export_format = ExportFormat::kUsd;  ///< export: the format
+  FarmOptions farm;                                 ///< farm: its flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown

@@ -6,7 +6,7 @@
 
 #include "base/value_readers.h"
 #include "geom/io/host_geometry.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
 #include "groom/coat/groom_params.h"
 #include "image/host_image.h"
@@ -208,7 +208,7 @@ void bind_geometry(py::module_& module) {
   module.def("make_poses", make_poses);
   module.def("make_mesh", make_mesh);
   module.def(
-      "read_mesh", [](const std::filesystem::path& path) { return shared(read_obj(path)); },
+      "read_mesh", [](const std::filesystem::path& path) { return shared(read_mesh_file(path)); },
       py::call_guard<py::gil_scoped_release>());
 }
 

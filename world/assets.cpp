@@ -14,7 +14,7 @@
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "geom/io/host_geometry.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "groom/strands/skin_fields.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
@@ -111,7 +111,7 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
   const bool from_file = !params.mesh.empty() && !params.mesh.data;
   if (from_file) require_file(params.mesh.path, params.mesh.position);
   MemoryCharge reading = from_file ? reserve_reading(name, params, job) : MemoryCharge();
-  ControlMesh cage = from_file          ? read_obj(params.mesh.path, job)
+  ControlMesh cage = from_file          ? read_mesh_file(params.mesh.path, job)
                      : params.mesh.data ? host_mesh(params.mesh)
                                         : no_surface();
   const MeshOrder order = mesh_order(cage);

@@ -78,41 +78,10 @@ std::span<const T> all_of(const std::vector<T>& values) {
   return values;
 }
 
-class MemoryStrands final : public RawStrands {
+class MemoryStrands final : public HeldStrands {
  public:
-  explicit MemoryStrands(const HostStrands& data)
-      : RawStrands(data.name(), data.strands()->basis()), strands_(data.strands()) {
-    strand_count = strands_->strand_count();
-    has_widths = true;
-    for (const StrandAttribute& attribute : strands_->attributes()) {
-      attributes.push_back(attribute);
-      if (attribute.frequency != AttributeClass::kConstant) attributes.back().values.clear();
-    }
-  }
-
-  uint32_t first_point(size_t strand) const override {
-    return all_of(strands_->arrays().first_point)[strand];
-  }
-
-  void append(size_t begin, size_t end, FileWindows&, StrandArrays& a) const override {
-    append_places(*this, begin, end, a);
-    const size_t from = first_point(begin), to = first_point(end);
-    const auto points = strands_->points().subspan(from * 4, (to - from) * 4);
-    a.points.insert(a.points.end(), points.begin(), points.end());
-    for (size_t i = 0; i < a.attributes.size(); ++i) {
-      const StrandAttribute& source = strands_->attributes()[i];
-      if (source.frequency == AttributeClass::kConstant) continue;
-      const bool per_point = source.frequency == AttributeClass::kPerPoint;
-      const auto n = static_cast<size_t>(source.components);
-      const auto values =
-          all_of(source.values)
-              .subspan((per_point ? from : begin) * n, (per_point ? to - from : end - begin) * n);
-      a.attributes[i].values.insert(a.attributes[i].values.end(), values.begin(), values.end());
-    }
-  }
-
- private:
-  std::shared_ptr<const Strands> strands_;
+  explicit MemoryStrands(const HostStrands& data) : HeldStrands(data.name(), "memory", data.strands()) {}
+  size_t bytes() const override { return 0; }  // the host holds them
 };
 
 }  // namespace

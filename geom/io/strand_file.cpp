@@ -19,12 +19,16 @@ struct Format {
   const char* ending;
   std::unique_ptr<RawStrands> (*open)(const std::filesystem::path&, const StrandReadOptions&);
   void (*write)(const std::filesystem::path&, const Strands&, bool widths);
-  std::initializer_list<std::string_view> attributes;  ///< that files can hold
+  std::initializer_list<std::string_view> attributes;  ///< that files can hold; "*": all
   bool point_widths, root_uv;                          ///< whether files can hold them
 };
 const Format kFormats[] = {
     {".hair", open_hair, write_hair, {"color", "transparency", "opacity"}, true, false},
-    {".tfx", open_tfx, write_tfx, {"color", "transparency", "opacity", "uv", kMovable}, false, true}};
+    {".tfx", open_tfx, write_tfx, {"color", "transparency", "opacity", "uv", kMovable}, false, true},
+    {".usda", open_usd, write_usd, {"*"}, true, true},
+    {".usd", open_usd, write_usd, {"*"}, true, true},
+    {".usdc", open_usd, nullptr, {"*"}, true, true},
+    {".usdz", open_usd, nullptr, {"*"}, true, true}};
 
 const Format* find_format(const std::filesystem::path& path) {
   const std::string ending = lower_extension(path);
@@ -36,7 +40,7 @@ const Format* find_format(const std::filesystem::path& path) {
 
 const Format& format_of(const std::filesystem::path& path, ErrorKind kind) {
   if (const Format* format = find_format(path)) return *format;
-  throw Error(kind, {path.string(), 0, 0}, "expected a strand file ending in .hair or .tfx");
+  throw Error(kind, {path.string(), 0, 0}, std::string("expected a strand file ending in ") + kStrandEndings);
 }
 
 constexpr size_t kChunk = 4096;
@@ -79,6 +83,7 @@ StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options
   const float stated = stated_width(*raw, options);
   const float width = stated > 0 ? stated : assumed_width(arrays);
   StrandFile result = finish_strands(std::move(arrays), *raw, width);
+  result.warnings = raw->warnings;
   if (!raw->has_widths && !(stated > 0)) result.assumed_width = width;
   return result;
 }
@@ -89,7 +94,9 @@ std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
 }
 
 void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths) {
-  format_of(path, ErrorKind::kFailed).write(path, strands, widths);
+  const Format& format = format_of(path, ErrorKind::kFailed);
+  if (!format.write) fail_to_write(path, "USD is written as text; name the file .usda");
+  format.write(path, strands, widths);
 }
 
 std::string what_is_lost(const std::filesystem::path& path, const Strands& strands) {
@@ -100,9 +107,10 @@ std::string what_is_lost(const std::filesystem::path& path, const Strands& stran
   if (!format.root_uv && !strands.arrays().root_uv.empty() && !strands.has_roots())
     lost.push_back("texture coordinates of roots");
   for (const StrandAttribute& attribute : strands.attributes()) {
-    if (std::find(format.attributes.begin(), format.attributes.end(), attribute.name) !=
-        format.attributes.end())
-      continue;
+    const auto holds = [&](std::string_view name) {
+      return std::find(format.attributes.begin(), format.attributes.end(), name) != format.attributes.end();
+    };
+    if (holds("*") || holds(attribute.name)) continue;
     if (attribute.name != kMovable) lost.push_back("the attribute " + attribute.name);
     if (attribute.name == kMovable && !is_usual(attribute, strands))
       lost.push_back("which points are fixed, other than the roots");

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/value_readers.h"
 #include "geom/strands.h"
@@ -28,9 +30,11 @@ struct StrandRepairs {
 struct StrandFile {
   Strands strands;
   StrandRepairs repairs;
-  std::string format;  ///< "hair" or "tfx"
+  std::string format;  ///< "hair", "tfx" or "usd"
   /// Width in scene units that was chosen because neither the file nor the options state one; else 0.
   float assumed_width = 0;
+  /// One line per kind of thing in the file that was not read.
+  std::vector<std::string> warnings;
 };
 
 struct StrandReadOptions {
@@ -40,14 +44,21 @@ struct StrandReadOptions {
   /// Also read which points of a .tfx file simulations may move, as the attribute "movable": 0 for fixed
   /// points.
   bool movable = false;
+  /// Max memory for the strands of formats that are read as a whole, in bytes.
+  int64_t max_bytes = std::numeric_limits<int64_t>::max();
 };
 
-/// Returns whether the file name has the extension of a supported strand format (.hair or .tfx).
+/// The extensions of the strand formats, for messages.
+inline constexpr const char* kStrandEndings = ".hair, .tfx or .usda";
+
+/// Returns whether the file name has the extension of a supported strand format: .hair, .tfx, or .usda and
+/// the other extensions of USD.
 bool is_strand_file(const std::filesystem::path& path);
 
-/// Reads strands. The extension of the file name selects the format: .hair (Cem Yuksel) or .tfx (TressFX 4).
-/// The id of a strand is its index in the file. Repairs or drops degenerate strands, and counts them. Reads
-/// the attributes "color" and "transparency" of .hair files, "opacity" and "uv" of .tfx files.
+/// Reads strands. The extension of the file name selects the format: .hair (Cem Yuksel), .tfx (TressFX 4) or
+/// .usda (USD as text, see geom/usd/usd_curves_file.h). The id of a strand is its index in the file. Repairs
+/// or drops degenerate strands, and counts them. Reads the attributes "color" and "transparency" of .hair
+/// files, "opacity" and "uv" of .tfx files, and all primvars of numbers of .usda files.
 ///
 /// Throws Error (kInput) with the reason when the file is damaged, is not of this format, or is shorter than
 /// the sizes in its header require. Uses less memory than 1.5 times the memory of the strands.
@@ -60,7 +71,8 @@ StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options
 /// Opacity becomes transparency in .hair files, and the reverse in .tfx files. A .tfx file has one width per
 /// strand: the max width of the strand. Without `widths`, the file has none. Throws Error (kFailed) when the
 /// file cannot be written, or when the format cannot represent the strands, such as strands with different
-/// numbers of points in .tfx.
+/// numbers of points in .tfx. A .usda file also has basis, ids, roots, motion keys at the times 0, 1 and so
+/// on, and all attributes.
 void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths = true);
 
 /// Lists what a file of the format that the name selects cannot hold of these strands, for messages: "widths

@@ -50,8 +50,8 @@ class RawStrands {
   RawStrands(const std::filesystem::path& path, const char* format_name, const StrandReadOptions& options)
       : file(path), format(format_name), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
   /// Strands in the memory of the host.
-  RawStrands(const std::string& name, CurveBasis basis_of_strands)
-      : file(BinaryFile::InMemory{name}), format("memory"), basis(basis_of_strands) {}
+  RawStrands(const std::string& name, CurveBasis basis_of_strands, const char* format_name = "memory")
+      : file(BinaryFile::InMemory{name}), format(format_name), basis(basis_of_strands) {}
   virtual ~RawStrands() = default;
 
   /// Index of the first point of a strand. For `strand` = strand_count, the total number of points.
@@ -79,9 +79,27 @@ class RawStrands {
   /// The common width that the file states when it has no width per point; 0 if it states none.
   float file_width = 0;
   std::vector<StrandAttribute> attributes;  ///< names and frequencies; values only for constant attributes
+  std::vector<std::string> warnings;        ///< one line per kind of thing in the file that is not read
+};
+
+/// Strands that are in memory as a whole.
+class HeldStrands : public RawStrands {
+ public:
+  /// Ids of the strands must be their indices. `root_uv`: whether texture coordinates of roots are passed on.
+  HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<const Strands> strands,
+              bool root_uv = false);
+  uint32_t first_point(size_t strand) const override;
+  void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const override;
+  size_t bytes() const override { return strands_->bytes(); }
+
+ private:
+  const std::shared_ptr<const Strands> strands_;
+  const bool root_uv_;
 };
 
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
+/// Opens USD as text. All strands are then in memory.
+std::unique_ptr<RawStrands> open_usd(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
 /// Opens strands of the host, or a file. Throws Error (kInput) if the data of the host is not strands.
 std::unique_ptr<RawStrands> open_raw_strands(const AssetPath& asset, const StrandReadOptions& options);
@@ -89,6 +107,7 @@ std::unique_ptr<RawStrands> open_raw_strands(const AssetPath& asset, const Stran
 std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands, bool widths);
+void write_usd(const std::filesystem::path& path, const Strands& strands, bool widths);
 void write_tfx(const std::filesystem::path& path, const Strands& strands, bool widths);
 /// Attribute of points: 0 where the simulation of a .tfx file fixes the point, else 1.
 inline constexpr const char* kMovable = "movable";

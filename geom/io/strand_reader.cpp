@@ -70,6 +70,7 @@ void StrandReader::find_width(const Job& job) {
 }
 
 void StrandReader::scan(const Job& job, const Visit& visit) {
+  for (const std::string& warning : raw_->warnings) job.progress.warn(warning);
   find_width(job);
   for_each_strands(job, [&](const StrandFile& read) {
     repairs_.dropped += read.repairs.dropped;

@@ -2,6 +2,7 @@
 #include "groom/coat/imported.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -15,10 +16,22 @@
 
 namespace pelage {
 
+namespace {
+
+/// What still fits the memory limit; the largest number if there is none.
+int64_t free_bytes(const MemoryLedger& ledger) {
+  if (ledger.limit() == 0) return std::numeric_limits<int64_t>::max();
+  return std::max<int64_t>(0, ledger.limit() - ledger.budgeted());
+}
+
+}  // namespace
+
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
     : reader_(with_errors_at_asset(params.strands_file, [&] {
-        return StrandReader(params.strands_file, {params.basis, params.default_width}, params.to_rest());
+        StrandReadOptions options{params.basis, params.default_width};
+        options.max_bytes = free_bytes(job.ledger);
+        return StrandReader(params.strands_file, options, params.to_rest());
       })) {
   // Per strand: first point, root and id in the order of the file; then the retained data in the order of
   // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/strands/named_mesh.h"
 
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "groom/strands/named_strands.h"
 #include "groom/strands/rotation.h"
 
@@ -11,7 +11,7 @@ SkinMesh read_named_mesh(const AssetPath& file, const Job& job) {
   std::error_code ignored;
   if (!std::filesystem::exists(file.path, ignored))
     throw Error(ErrorKind::kInput, file.position, "no such file " + file.path.string());
-  const ControlMesh cage = with_errors_at_asset(file, [&] { return read_obj(file.path, job); });
+  const ControlMesh cage = with_errors_at_asset(file, [&] { return read_mesh_file(file.path, job); });
   SkinMesh mesh;
   for (const V3f& p : cage.positions) mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
   std::vector<V3f> normals(cage.positions.size(), V3f(0));

@@ -11,7 +11,7 @@
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "geom/io/host_geometry.h"
-#include "geom/io/obj_file.h"
+#include "geom/io/mesh_file.h"
 #include "geom/polygon_cut.h"
 #include "image/texture_library.h"
 #include "render/light/aim.h"
@@ -101,7 +101,8 @@ struct LightMaker {
 
   std::unique_ptr<Light> operator()(const MeshLightParams& p) const {
     std::vector<MeshLight::Triangle> triangles = with_place_of(p.file, [&] {
-      return triangles_of(p.file.data ? host_mesh(p.file) : read_obj(p.file.path), p.transform.matrix());
+      return triangles_of(p.file.data ? host_mesh(p.file) : read_mesh_file(p.file.path),
+                          p.transform.matrix());
     });
     double area = 0;
     for (MeshLight::Triangle& t : triangles) {

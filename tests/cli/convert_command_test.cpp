@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "geom/io/strand_file.h"
@@ -102,6 +103,44 @@ TEST_F(ConvertLossesTest, WarnOnceOfAllThatIsLost) {
   EXPECT_NE(several.find("texture coordinates of roots, the attribute uv\n"), std::string::npos) << several;
 }
 
+TEST_F(ConvertLossesTest, UsdHoldsEverythingBothWays) {
+  StrandArrays a = three_strands().arrays();
+  a.points[3] = 0.02f;
+  a.attributes.push_back({"color", AttributeClass::kPerPoint, 3, std::vector<float>(36, 0.3f)});
+  a.attributes.push_back({"transparency", AttributeClass::kPerPoint, 1, std::vector<float>(12, 0.7f)});
+  write_strands(folder_.path() / "a.hair", Strands(a));
+  EXPECT_EQ(errors("a.hair", "b.usda"), "");
+  EXPECT_EQ(errors("b.usda", "c.hair"), "");
+  EXPECT_EQ(read_file(folder_.path() / "c.hair"), [&] {
+    errors("a.hair", "d.hair");
+    return read_file(folder_.path() / "d.hair");
+  }());
+  options_.input = (folder_.path() / "b.usda").string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_validate(options_), 0);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("2 strands of 8 points"), std::string::npos) << said;
+  EXPECT_NE(said.find("no problems"), std::string::npos) << said;
+}
+
+TEST_F(ConvertCommandTest, ValidateNamesWhatHostsStumbleOver) {
+  write_file(folder_.path() / "bad.usda", R"(#usda 1.0
+def BasisCurves "hair" {
+  uniform token type = "linear"
+  int[] curveVertexCounts = [2, 1]
+  point3f[] points = [(0, 0, 0), (1, 0, nan), (0, 1, 0)]
+  float3[] extent = [(0, 0, 0), (0.5, 1, 0)]
+}
+)");
+  options_.input = (folder_.path() / "bad.usda").string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_validate(options_), 3);
+  const std::string said = testing::internal::GetCapturedStdout();
+  for (const char* part : {"1 strands have one point", "1 coordinates of points are not finite",
+                           "it has no widths", "remark: ", "no texture coordinates", "no ids"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+}
+
 TEST_F(ConvertCommandTest, RefusesWhatIsNoStrandFile) {
   options_.output = (folder_.path() / "b.obj").string();
   try {
@@ -109,7 +148,7 @@ TEST_F(ConvertCommandTest, RefusesWhatIsNoStrandFile) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kArguments);
-    EXPECT_NE(std::string(error.what()).find("written as .hair or .tfx"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("written as .hair, .tfx or .usda"), std::string::npos);
   }
 }
 

@@ -146,15 +146,19 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_NE(problem({"grow", "s", "--lod"}).find("--output"), std::string::npos);
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
   EXPECT_EQ(problem({"rendr", "s"}), "unknown command 'rendr'; did you mean 'render'?");
-  EXPECT_EQ(problem({"zebra"}),
-            "unknown command 'zebra'; expected one of compare, convert, farm, grow, info, manual, measure, "
-            "merge, motionblur, new, procedural, render, rib, simulate, stereo, view, why");
+  EXPECT_EQ(
+      problem({"zebra"}),
+      "unknown command 'zebra'; expected one of compare, convert, export, farm, grow, info, manual, "
+      "measure, merge, motionblur, new, procedural, render, rib, simulate, stereo, validate, view, why");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}), "unknown option '--fraems'; did you mean '--frames'?");
   EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "unknown option '--memroy'; did you mean '--memory'?");
   EXPECT_EQ(problem({"render", "s", "--zebra"}), "unknown option '--zebra'; see 'pelage render --help'");
   EXPECT_EQ(problem({"render", "s", "t"}), "unexpected argument 't'");
   EXPECT_EQ(problem({"--zebra"}), "unknown option '--zebra'; see 'pelage --help'");
   EXPECT_EQ(problem({"render"}), "SCENE is required; see 'pelage render --help'");
+  EXPECT_EQ(problem({"export", "s", "-o", "d", "--format", "pbr"}),
+            "--format 'pbr' is not known; did you mean 'pbrt'?");
+  EXPECT_EQ(parsed({"export", "s", "-o", "d", "--format", "mitsuba"}).export_format, ExportFormat::kMitsuba);
   EXPECT_EQ(problem({"convert", "a"}), "OUT is required; see 'pelage convert --help'");
   EXPECT_EQ(problem({"render", "s", "--set", "a"}), "--set a: expected a key and a value, a.b.c=value");
   EXPECT_EQ(problem({"render", "s", "--memory", "lots"}),

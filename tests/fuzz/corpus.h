@@ -29,5 +29,6 @@ std::vector<std::string> leaf_corpus();
 std::vector<std::string> fur_corpus();
 std::vector<std::string> chunks_corpus();
 std::vector<std::string> rib_corpus();
+std::vector<std::string> usd_corpus();
 
 }  // namespace pelage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/exchange_flags.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace pelage {
+
+void add_export_flags(CLI::App& command, std::string& folder, std::string& format) {
+  command.add_option("-o,--output", folder, "Folder to write; it may exist")->required()->type_name("DIR");
+  command.add_option("--format", format, "Format: usd, pbrt (version 4) or mitsuba (version 3)")
+      ->required()
+      ->type_name("FORMAT");
+}
+
+ExportFormat interpret_export(const std::string& format) {
+  if (format.empty()) return ExportFormat::kUsd;
+  const std::vector<std::string> names(std::begin(EnumNames<ExportFormat>::names),
+                                       std::end(EnumNames<ExportFormat>::names));
+  const auto found = std::find(names.begin(), names.end(), format);
+  if (found == names.end()) {
+    throw Error(ErrorKind::kArguments,
+                "--format " + quote(format) + " is not known" + suggest(format, names));
+  }
+  return static_cast<ExportFormat>(found - names.begin());
+}
+
+}  // namespace pelage

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "exchange/scene_export.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pelage {
+
+/// Adds the flags of `export`, except those that all commands with a scene have. `format`: the text of its
+/// format, for interpret_export().
+void add_export_flags(CLI::App& command, std::string& folder, std::string& format);
+
+/// Returns the format that a text names. Throws Error (kArguments) with the nearest name.
+ExportFormat interpret_export(const std::string& format);
+
+}  // namespace pelage

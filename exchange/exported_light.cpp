@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exchange/exported_light.h"
+
+#include <numbers>
+
+#include "geom/io/host_geometry.h"
+#include "geom/io/mesh_file.h"
+#include "geom/polygon_cut.h"
+#include "render/light/aim.h"
+#include "render/light/environment_light.h"
+
+namespace pelage {
+namespace {
+
+using Kind = ExportedLight::Kind;
+
+double area_of(const ControlMesh& mesh) {
+  double area = 0;
+  std::vector<V3f> corners;
+  std::vector<uint32_t> cut;
+  const uint32_t* vertex = mesh.face_vertices.data();
+  for (const uint32_t size : mesh.face_sizes) {
+    corners.clear();
+    cut.clear();
+    for (uint32_t i = 0; i < size; ++i) corners.push_back(mesh.positions[vertex[i]]);
+    cut_polygon({vertex, size}, corners, cut);
+    for (size_t i = 0; i + 2 < cut.size(); i += 3) {
+      const V3f& a = mesh.positions[cut[i]];
+      area += 0.5 * double{(mesh.positions[cut[i + 1]] - a).cross(mesh.positions[cut[i + 2]] - a).length()};
+    }
+    vertex += size;
+  }
+  return area;
+}
+
+struct ExportedLightOf {
+  const std::string& name;
+  double frame;
+  float factor;
+
+  ExportedLight operator()(const RectangleLightParams& p) const {
+    ExportedLight light = facing(Kind::kRectangle, p, p.up);
+    light.size = p.size;
+    light.two_sided = p.two_sided;
+    light.image = p.file.path.string();
+    return light;
+  }
+  ExportedLight operator()(const DiskLightParams& p) const {
+    ExportedLight light = facing(Kind::kDisk, p, V3f(0, 1, 0));
+    light.radius = p.radius;
+    return light;
+  }
+  ExportedLight operator()(const SphereLightParams& p) const { return sphere(p); }
+  ExportedLight operator()(const PointLightParams& p) const { return sphere(p); }
+  ExportedLight operator()(const SpotLightParams& p) const {
+    ExportedLight light = facing(Kind::kSpot, p, p.up);
+    light.radius = p.radius;
+    light.angle = 0.5f * p.cone;
+    light.softness = p.softness;
+    light.image = p.file.path.string();
+    return light;
+  }
+  ExportedLight operator()(const SunLightParams& p) const {
+    ExportedLight light = common(Kind::kSun, p);
+    set_axes(light, V3f(0), p.direction.at(frame), V3f(0, 1, 0));
+    light.angle = p.angle;
+    return light;
+  }
+  ExportedLight operator()(const MeshLightParams& p) const {
+    ExportedLight light = common(Kind::kMesh, p);
+    light.mesh = p.file.data ? host_mesh(p.file) : read_mesh_file(p.file.path);
+    transform_cage(p.transform.matrix(), light.mesh);
+    if (p.power) light.radiance *= static_cast<float>(*p.power / (std::numbers::pi * area_of(light.mesh)));
+    return light;
+  }
+  ExportedLight operator()(const EnvironmentLightParams& p) const {
+    ExportedLight light = common(Kind::kEnvironment, p);
+    light.image = p.file.path.string();
+    const M33f turn = rotation_xyz(p.rotate);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) light.rotation[i][j] = turn[i][j];
+    }
+    return light;
+  }
+
+ private:
+  template <class Params>
+  ExportedLight common(Kind kind, const Params& p) const {
+    ExportedLight light;
+    light.kind = kind;
+    light.name = name;
+    light.radiance = p.color() * (p.strength(frame) * p.unit_radiance() * factor);
+    light.visible = p.visible;
+    light.shadows = p.shadows;
+    return light;
+  }
+  template <class Params>
+  ExportedLight sphere(const Params& p) const {
+    ExportedLight light = common(Kind::kSphere, p);
+    light.position = p.position.at(frame);
+    light.radius = p.radius;
+    return light;
+  }
+  template <class Params>
+  ExportedLight facing(Kind kind, const Params& p, const V3f& up) const {
+    ExportedLight light = common(kind, p);
+    light.position = p.position.at(frame);
+    set_axes(light, light.position, p.look_at.at(frame), up);
+    return light;
+  }
+  void set_axes(ExportedLight& light, const V3f& from, const V3f& to, const V3f& up) const {
+    const std::optional<Aim> aim = Aim::at(from, to, up);
+    if (!aim) throw Error(ErrorKind::kInput, "lights." + name + ": no direction at this frame");
+    light.x = aim->x, light.y = aim->y, light.z = aim->z;
+  }
+};
+
+}  // namespace
+
+std::vector<ExportedLight> exported_lights(const SceneDescription& scene, double frame, float factor,
+                                           ExportNotes& notes) {
+  std::vector<ExportedLight> lights;
+  for (const auto& [name, position, params] : scene.lights.items) {
+    lights.push_back(std::visit(ExportedLightOf{name, frame, factor}, params));
+    const auto& emission =
+        std::visit([](const LightEmission& p) -> const LightEmission& { return p; }, params);
+    if (emission.illuminates || emission.shadowed_by)
+      notes.add("light '" + name + "'", "it illuminates everything, and everything casts a shadow in it");
+  }
+  return lights;
+}
+
+M44f light_to_world(const ExportedLight& light) {
+  const V3f &x = light.x, &y = light.y, &z = light.z, &p = light.position;
+  return {-x.x, -x.y, -x.z, 0, y.x, y.y, y.z, 0, -z.x, -z.y, -z.z, 0, p.x, p.y, p.z, 1};
+}
+
+}  // namespace pelage

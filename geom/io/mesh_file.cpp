@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/io/mesh_file.h"
+
+#include "base/file.h"
+#include "base/job.h"
+#include "base/progress.h"
+#include "geom/io/obj_file.h"
+#include "geom/usd/usd_mesh_file.h"
+
+namespace pelage {
+
+bool is_usd_file(const std::filesystem::path& path) {
+  const std::string ending = lower_extension(path);
+  return ending == ".usda" || ending == ".usd" || ending == ".usdc" || ending == ".usdz";
+}
+
+ControlMesh read_mesh_file(const std::filesystem::path& path) {
+  return is_usd_file(path) ? read_usd_mesh(path).mesh : read_obj(path);
+}
+
+ControlMesh read_mesh_file(const std::filesystem::path& path, const Job& job) {
+  if (!is_usd_file(path)) return read_obj(path, job);
+  UsdMeshFile file = read_usd_mesh(path);
+  for (const std::string& warning : file.warnings) job.progress.warn(warning);
+  job.check_stop();
+  return std::move(file.mesh);
+}
+
+}  // namespace pelage

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "geom/mesh.h"
+
+namespace pelage {
+
+struct Job;
+
+/// Reads a cage from a file: .usda and the other extensions of USD (geom/usd/usd_mesh_file.h), or else OBJ
+/// (read_obj()). Throws their errors.
+ControlMesh read_mesh_file(const std::filesystem::path& path);
+/// Does the same. Passes warnings to the progress of the job, and throws Error (kStopped) when the job is
+/// stopped.
+ControlMesh read_mesh_file(const std::filesystem::path& path, const Job& job);
+
+/// Returns whether the name of a file has an extension of USD.
+bool is_usd_file(const std::filesystem::path& path);
+
+}  // namespace pelage

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "geom/io/strand_formats.h"
+#include "geom/usd/usd_curves_file.h"
+#include "geom/usd/usd_curves_writer.h"
+
+namespace pelage {
+namespace {
+
+class UsdStrands final : public HeldStrands {
+ public:
+  UsdStrands(const std::filesystem::path& path, UsdCurvesFile read)
+      : HeldStrands(path.string(), "usd", std::make_shared<const Strands>(std::move(read.strands)), true) {
+    has_widths = read.has_widths;
+    warnings = std::move(read.warnings);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RawStrands> open_usd(const std::filesystem::path& path, const StrandReadOptions& options) {
+  return std::make_unique<UsdStrands>(
+      path, read_usd_curves(path, {std::min(options.max_bytes, UsdCurvesOptions().max_bytes)}));
+}
+
+void write_usd(const std::filesystem::path& path, const Strands& strands, bool widths) {
+  UsdWriter usd(path, "defaultPrim = \"hair\"\nupAxis = \"Y\"", Links::kFollow);
+  UsdCurvesFacts facts;
+  facts.widths = widths;
+  write_usd_curves(usd, "hair", facts, 1, [&](size_t) {
+    UsdCurvesSample sample{strands, {}};
+    for (int key = 0; key < strands.motion_keys() && strands.motion_keys() > 1; ++key)
+      sample.times.push_back(key);
+    return sample;
+  });
+  usd.commit();
+}
+
+}  // namespace pelage

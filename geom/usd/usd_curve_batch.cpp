@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/usd/usd_curve_batch.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace pelage {
+namespace {
+
+AttributeClass frequency_of(const UsdPrimvar& primvar) {
+  if (primvar.interpolation == "constant") return AttributeClass::kConstant;
+  if (primvar.interpolation == "uniform") return AttributeClass::kPerStrand;
+  return AttributeClass::kPerPoint;
+}
+
+/// Places of one curve in the arrays of its prim.
+struct CurvePlace {
+  size_t curve = 0, first_vertex = 0, first_varying = 0;
+};
+
+/// Writes the value of a primvar at a point of a curve.
+void value_at(const UsdPrimvar& primvar, const CurvePlace& place, const UsdCurvePoint& point, float* out) {
+  const size_t n = primvar.components;
+  const auto element = [&](size_t index) { return &primvar.values[index * n]; };
+  if (primvar.interpolation == "constant" || primvar.interpolation == "uniform") {
+    std::copy_n(element(primvar.interpolation == "uniform" ? place.curve : 0), n, out);
+  } else if (primvar.interpolation == "vertex") {
+    for (size_t c = 0; c < n; ++c) {
+      out[c] = point.weight[0] == 1 ? element(place.first_vertex + point.vertex[0])[c] : 0;
+      for (size_t k = 0; k < 4 && point.weight[0] != 1; ++k) {
+        if (point.weight[k] != 0)
+          out[c] += point.weight[k] * element(place.first_vertex + point.vertex[k])[c];
+      }
+    }
+  } else {
+    const float *a = element(place.first_varying + point.varying[0]),
+                *b = element(place.first_varying + point.varying[1]);
+    for (size_t c = 0; c < n; ++c) out[c] = interpolate(a[c], b[c], point.along);
+  }
+}
+
+class CurveJoiner {
+ public:
+  explicit CurveJoiner(std::vector<UsdCurveBatch> batches) : batches_(std::move(batches)) {
+    constexpr CurveBasis kNone = CurveBasis::kBezier;  // which strands never have
+    const CurveBasis common = batches_.front().form.native().value_or(kNone);
+    for (const UsdCurveBatch& batch : batches_) {
+      resample_ |= common == kNone || batch.form.native().value_or(kNone) != common;
+      has_uv_ |= !batch.root_uv.values.empty();
+      for (const auto& [name, primvar] : batch.attributes) declare(name, primvar);
+    }
+    arrays_.basis = resample_ ? CurveBasis::kCatmullRom : common;
+    arrays_.first_point.push_back(0);
+  }
+
+  StrandArrays join() {
+    for (UsdCurveBatch& batch : batches_) {
+      add(batch);
+      batch = {};
+    }
+    sort_by_id();
+    for (size_t i = 0; i + 1 < arrays_.first_point.size(); ++i) arrays_.ids.push_back(i);
+    return std::move(arrays_);
+  }
+
+ private:
+  StrandAttribute* find(const std::string& name) {
+    for (StrandAttribute& attribute : arrays_.attributes) {
+      if (attribute.name == name) return &attribute;
+    }
+    return nullptr;
+  }
+
+  void declare(const std::string& name, const UsdPrimvar& primvar) {
+    const auto components = static_cast<int>(primvar.components);
+    // Constant values of several prims may differ.
+    const AttributeClass frequency = std::max(
+        frequency_of(primvar), batches_.size() > 1 ? AttributeClass::kPerStrand : AttributeClass::kConstant);
+    if (StrandAttribute* known = find(name)) {
+      known->frequency = std::max(known->frequency, frequency);
+      known->components = std::max(known->components, components);
+    } else {
+      arrays_.attributes.push_back({name, frequency, components, {}});
+    }
+  }
+
+  void add(const UsdCurveBatch& batch) {
+    CurvePlace place;
+    std::vector<UsdCurvePoint> points;
+    for (const uint32_t n : batch.counts) {
+      const uint32_t count = batch.form.points(n, resample_);
+      if (arrays_.first_point.back() > UINT32_MAX - count)
+        throw Error(ErrorKind::kInput, "the curves have more than 4,294,967,295 points");
+      if (is_plain(batch)) {
+        add_plain(batch, place, count);
+      } else {
+        points.clear();
+        for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
+        add_points(batch, place, points);
+        add_attributes(batch, place, points);
+      }
+      if (has_uv_) add_uv(batch, place, n);
+      if (!batch.ids.empty()) ids_.push_back(batch.ids[place.curve]);
+      arrays_.first_point.push_back(arrays_.first_point.back() + count);
+      ++place.curve;
+      place.first_vertex += n;
+      place.first_varying += batch.form.varying(n);
+    }
+  }
+
+  /// Whether points are vertices, and nothing but widths comes with them: most curves of large files.
+  bool is_plain(const UsdCurveBatch& batch) const {
+    const bool vertex_widths = batch.widths.values.empty() || batch.widths.interpolation == "vertex";
+    return !resample_ && batch.form.wrap != UsdCurveForm::Wrap::kPeriodic && vertex_widths &&
+           arrays_.attributes.empty() && batch.to_world == M44f();
+  }
+
+  void add_plain(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t count) {
+    const size_t first = arrays_.points.size();
+    arrays_.points.resize(first + 4 * size_t{count});
+    for (size_t i = 0; i < count; ++i) {
+      float* to = &arrays_.points[first + 4 * i];
+      std::copy_n(&batch.points[3 * (place.first_vertex + i)], 3, to);
+      if (!batch.widths.values.empty()) to[3] = batch.widths.values[place.first_vertex + i];
+    }
+  }
+
+  void add_points(const UsdCurveBatch& batch, const CurvePlace& place,
+                  const std::vector<UsdCurvePoint>& points) {
+    const bool still = batch.to_world == M44f();
+    for (const UsdCurvePoint& point : points) {
+      V3f p(0);
+      if (point.weight[0] == 1) {
+        std::copy_n(&batch.points[3 * (place.first_vertex + point.vertex[0])], 3, &p.x);
+      } else {
+        for (size_t k = 0; k < 4; ++k) {
+          if (point.weight[k] == 0) continue;
+          const float* vertex = &batch.points[3 * (place.first_vertex + point.vertex[k])];
+          p += point.weight[k] * V3f(vertex[0], vertex[1], vertex[2]);
+        }
+      }
+      if (!still) p = p * batch.to_world;
+      float radius = 0;
+      if (!batch.widths.values.empty()) value_at(batch.widths, place, point, &radius);
+      arrays_.points.insert(arrays_.points.end(), {p.x, p.y, p.z, radius});
+    }
+  }
+
+  void add_attributes(const UsdCurveBatch& batch, const CurvePlace& place,
+                      const std::vector<UsdCurvePoint>& points) {
+    std::vector<float> value;
+    for (StrandAttribute& to : arrays_.attributes) {
+      const UsdPrimvar* from = nullptr;
+      for (const auto& [name, primvar] : batch.attributes) {
+        if (name == to.name) from = &primvar;
+      }
+      const bool once = to.frequency == AttributeClass::kConstant;
+      if (once && !to.values.empty()) continue;
+      const size_t count = to.frequency == AttributeClass::kPerPoint ? points.size() : 1;
+      const auto components = static_cast<size_t>(to.components);
+      for (size_t i = 0; i < count; ++i) {
+        value.assign(std::max(components, from ? from->components : 0), 0.0f);
+        // Curves without points still have uniform values.
+        if (from && !from->values.empty())
+          value_at(*from, place, points.empty() ? UsdCurvePoint() : points[i], value.data());
+        to.values.insert(to.values.end(), value.begin(), value.begin() + static_cast<ptrdiff_t>(components));
+      }
+    }
+  }
+
+  void add_uv(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t n) {
+    float uv[2] = {0, 0};
+    const bool has_root = batch.form.segments(n) > 0;
+    if (!batch.root_uv.values.empty() &&
+        (has_root || frequency_of(batch.root_uv) != AttributeClass::kPerPoint))
+      value_at(batch.root_uv, place, UsdCurvePoint(), uv);
+    arrays_.root_uv.emplace_back(uv[0], uv[1]);
+  }
+
+  void sort_by_id() {
+    const size_t count = arrays_.first_point.size() - 1;
+    if (ids_.size() != count || std::is_sorted(ids_.begin(), ids_.end())) return;
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return ids_[a] < ids_[b]; });
+    for (size_t i = 1; i < count; ++i) {
+      if (ids_[order[i]] == ids_[order[i - 1]]) return;
+    }
+    StrandArrays sorted;
+    sorted.basis = arrays_.basis;
+    sorted.first_point.push_back(0);
+    sorted.points.reserve(arrays_.points.size());
+    for (const uint32_t s : order) {
+      const size_t first = arrays_.first_point[s], end = arrays_.first_point[s + 1];
+      sorted.points.insert(sorted.points.end(), arrays_.points.begin() + static_cast<ptrdiff_t>(4 * first),
+                           arrays_.points.begin() + static_cast<ptrdiff_t>(4 * end));
+      sorted.first_point.push_back(sorted.first_point.back() + static_cast<uint32_t>(end - first));
+      if (has_uv_) sorted.root_uv.push_back(arrays_.root_uv[s]);
+    }
+    for (StrandAttribute& attribute : arrays_.attributes) sort_attribute(order, attribute);
+    sorted.attributes = std::move(arrays_.attributes);
+    arrays_ = std::move(sorted);
+  }
+
+  void sort_attribute(const std::vector<uint32_t>& order, StrandAttribute& attribute) const {
+    if (attribute.frequency == AttributeClass::kConstant) return;
+    std::vector<float> values;
+    values.reserve(attribute.values.size());
+    const auto n = static_cast<size_t>(attribute.components);
+    for (const uint32_t s : order) {
+      const bool points = attribute.frequency == AttributeClass::kPerPoint;
+      const size_t first = points ? arrays_.first_point[s] : s,
+                   end = points ? arrays_.first_point[s + 1] : s + 1;
+      values.insert(values.end(), attribute.values.begin() + static_cast<ptrdiff_t>(n * first),
+                    attribute.values.begin() + static_cast<ptrdiff_t>(n * end));
+    }
+    attribute.values = std::move(values);
+  }
+
+  std::vector<UsdCurveBatch> batches_;
+  StrandArrays arrays_;
+  std::vector<uint64_t> ids_;
+  bool resample_ = false, has_uv_ = false;
+};
+
+}  // namespace
+
+StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches) {
+  return CurveJoiner(std::move(batches)).join();
+}
+
+}  // namespace pelage

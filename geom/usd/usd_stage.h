@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+#include "geom/usd/usd_layer.h"
+#include "geom/usd/usd_warnings.h"
+
+namespace pelage {
+
+/// A layer with its sublayers, strongest first.
+struct UsdLayerStack {
+  std::vector<std::shared_ptr<const UsdLayer>> layers;
+};
+
+/// What one layer states about a composed prim.
+struct UsdOpinion {
+  std::shared_ptr<const UsdLayerStack> stack;
+  const UsdLayer* layer = nullptr;
+  const UsdPrimSpec* spec = nullptr;
+};
+
+/// An attribute with a value.
+struct UsdValue {
+  const UsdLayer* layer = nullptr;
+  const UsdAttribute* attribute = nullptr;
+  UsdText text;  ///< the default value, or else the earliest time sample
+};
+
+/// A prim with everything that its layers, references, payloads and selected variants state about it.
+class UsdPrim {
+ public:
+  std::string path;                  ///< such as /scene/rat
+  std::string type;                  ///< such as Mesh; may be empty
+  std::vector<UsdOpinion> opinions;  ///< strongest first, not empty
+  M44f to_world;                     ///< from the space of the prim, for row vectors
+
+  std::optional<UsdValue> find(std::string_view attribute) const;
+  /// Returns the token of an attribute, or `other` if it has none.
+  std::string token(std::string_view attribute, const std::string& other) const;
+  /// Returns the interpolation that is stated for an attribute; empty if none is.
+  std::string interpolation(std::string_view attribute) const;
+  /// Returns the names of all attributes, without repetitions, in order.
+  std::vector<std::string> attribute_names() const;
+  SourcePosition position() const { return opinions.front().layer->position(opinions.front().spec->place); }
+  [[noreturn]] void fail(const std::string& message) const;
+};
+
+/// A scene of USD, composed from a layer and the layers that it names: sublayers, references, payloads,
+/// inherited prims, and variants that are selected. Layers are opened when they are needed, and closed soon
+/// afterwards. For use by one thread.
+class UsdStage {
+ public:
+  /// `warnings`: receives what is skipped. Throws Error (kInput) as UsdLayer does.
+  UsdStage(const std::filesystem::path& path, UsdWarnings& warnings);
+  /// Does the same with a text. `path`: for messages, and for files that the text names.
+  UsdStage(const std::filesystem::path& path, std::string_view text, UsdWarnings& warnings);
+
+  const UsdLayer& root_layer() const { return *root_->layers.front(); }
+  /// Visits the defined prims in the order of the file, without those that are inactive, invisible, or for
+  /// purposes other than rendering. Their positions are turned so that y is up. Throws Error (kInput) when a
+  /// file that is needed cannot be read, or when prims refer to themselves or become more than a million.
+  void visit(const std::function<void(const UsdPrim&)>& use);
+
+ private:
+  using Stack = std::shared_ptr<const UsdLayerStack>;
+  using Chain = std::vector<std::string>;
+
+  Stack open(const std::filesystem::path& path);
+  void add_sublayers(const UsdLayer& layer, UsdLayerStack& stack, int depth);
+  void visit_children(const UsdPrim& parent, const Chain& chain,
+                      const std::function<void(const UsdPrim&)>& use);
+  void expand(std::vector<UsdOpinion>& opinions, Chain& chain);
+  void add_variants(const UsdOpinion& opinion, const std::vector<UsdOpinion>& all,
+                    std::vector<UsdOpinion>& added);
+  void add_arc(const UsdOpinion& from, const UsdArc& arc, Chain& chain, std::vector<UsdOpinion>& added);
+  void add_target(const Stack& stack, const std::string& path, const UsdOpinion& from, size_t place,
+                  Chain& chain, std::vector<UsdOpinion>& added);
+  bool is_shown(const UsdPrim& prim);
+
+  UsdWarnings& warnings_;
+  Stack root_;
+  std::map<std::string, std::weak_ptr<const UsdLayerStack>> open_;
+  std::deque<Stack> recent_;
+  size_t prims_ = 0;
+  M44f up_;  // turns the up axis of the file to y
+};
+
+/// Returns the matrix of a prim's xformOps, for row vectors. Sets `resets` if the prim ignores the transform
+/// of its parent. Throws Error (kInput) for malformed values.
+M44f usd_local_transform(const UsdPrim& prim, bool& resets, UsdWarnings& warnings);
+
+}  // namespace pelage
