@@ -88,8 +88,8 @@ struct AbsorptionParams {
   std::optional<float> pheomelanin;      ///< concentration of the red and yellow pigment
 };
 
-/// Height of the lobes: the published height; half of it, which roughly conserves energy; or a height at which
-/// a fibre without absorption scatters all light, at every inclination.
+/// Height of the lobes: the published height; half of it, which roughly conserves energy; or a height at
+/// which a fibre without absorption scatters all light, at every inclination.
 enum class MarschnerVariant { kPublished, kHalved, kConserving };
 template <>
 struct EnumNames<MarschnerVariant> {
