@@ -117,6 +117,7 @@ void add_measure(CLI::App& measure, LabOptions& options, LabTexts& texts) {
                   "bounces, bounds, growth, lod, residency, samplers or shading")
       ->required();
   add_scene_flags(measure, options, texts);
+  add_script_flag(measure, options);
   measure
       .add_option("-o,--output", options.output,
                   "Report folder (default: the scene's and the experiment's name)")
@@ -135,6 +136,7 @@ void add_measure(CLI::App& measure, LabOptions& options, LabTexts& texts) {
 
 void add_compare(CLI::App& compare, LabOptions& options, LabTexts& texts) {
   add_scene_flags(compare, options, texts);
+  add_script_flag(compare, options);
   compare
       .add_option("-o,--output", options.output,
                   "Folder for the report and its pictures (default: the scene's name and _compare)")

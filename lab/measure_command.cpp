@@ -40,6 +40,7 @@ MeasureSetup setup_of(const LabOptions& options, const SceneDescription& scene) 
     setup.arguments.insert(setup.arguments.end(), {"--set", "render.lod.enabled=false"});
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
+  if (options.allow_scripts) setup.arguments.emplace_back("--allow-scripts");
   // Pictures, timelines and counts are compared for a single frame.
   setup.arguments.insert(setup.arguments.end(),
                          {"--set", fmt::format("frames={}", scene.frames.frames.front())});

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/place_of_file.h"
 #include "groom/operators/operator_scripts.h"
 #include "groom/operators/script_batch.h"
 
@@ -108,8 +109,10 @@ void PythonOperator::prepare(const PrepareContext& context) {
   position_ = context.position;
   owner_ = context.owner;
   seed_ = context.seed;
-  script_ =
-      context.scripts->open({params_.module.path, params_.function, params_.arguments.json}, context.job);
+  script_ = with_place_of(params_.module, [&] {
+    return context.scripts->open({params_.module.path, params_.function, params_.arguments.json},
+                                 context.job);
+  });
 }
 
 void PythonOperator::fail(uint64_t strand, const std::string& what) const {

@@ -2,6 +2,9 @@
 #include "groom/operators/script_arguments.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -30,6 +33,26 @@ bool is_python_name(std::string_view key) {
          std::all_of(key.begin(), key.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
+/// Whole numbers stay whole, and 2.0 or 1e3 become floating-point numbers of Python.
+std::string number_text(std::string_view text, double number) {
+  if (text.find_first_of(".eE") == std::string::npos && std::abs(number) < 1e15)
+    return fmt::format("{:.0f}", number);
+  std::string json = fmt::format("{:.17g}", number);  // 17 digits give every double back
+  if (json.find_first_of(".e") == std::string::npos) json += ".0";
+  return json;
+}
+
+/// Whether a text is YAML for a number that JSON lacks, or a number that is too large.
+bool is_not_finite(std::string_view text) {
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  for (const char* name : {".nan", ".NaN", ".NAN", ".inf", ".Inf", ".INF"}) {
+    if (text == name) return true;
+  }
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  return read.ec == std::errc::result_out_of_range && read.ptr == text.data() + text.size();
+}
+
 bool add_json(const Value& value, std::string& json, Problems& problems);
 
 bool add_scalar(const Value& value, std::string& json, Problems& problems) {
@@ -41,12 +64,14 @@ bool add_scalar(const Value& value, std::string& json, Problems& problems) {
   if (value.quoted()) {
     json += json_text(text);
   } else if (const std::optional<double> number = parse_number(text)) {
-    // 17 digits give every double back; whole numbers stay whole.
-    json += text.find_first_of(".eE") == std::string::npos && std::abs(*number) < 1e15
-                ? fmt::format("{:.0f}", *number)
-                : fmt::format("{:.17g}", *number);
-  } else if (text == "true" || text == "false") {
-    json += text;
+    json += number_text(text, *number);
+  } else if (is_not_finite(text)) {
+    problems.add(value.position(), "expected a finite number, got " + text);
+    return false;
+  } else if (text == "true" || text == "True" || text == "TRUE") {
+    json += "true";
+  } else if (text == "false" || text == "False" || text == "FALSE") {
+    json += "false";
   } else {
     json += json_text(text);
   }

@@ -74,10 +74,14 @@ class BounceSweep {
 }  // namespace
 
 const std::vector<BounceMethod>& bounce_methods() {
-  static const std::vector<BounceMethod> all{
-      {"path", "path", {{"integrator", "path"}}},
-      {"rays", "gather, cache: false", {{"integrator", "gather"}, {"gather.cache", "false"}}},
-      {"cache", "gather, cache: true", {{"integrator", "gather"}, {"gather.cache", "true"}}}};
+  static const std::vector<BounceMethod> all = [] {
+    std::vector<BounceMethod> methods{
+        {"path", "path", {{"integrator", "path"}}},
+        {"rays", "gather, cache: false", {{"integrator", "gather"}, {"gather.cache", "false"}}},
+        {"cache", "gather, cache: true", {{"integrator", "gather"}, {"gather.cache", "true"}}}};
+    for (BounceMethod& method : methods) method.settings.emplace_back("indirect", "path");
+    return methods;
+  }();
   return all;
 }
 

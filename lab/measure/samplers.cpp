@@ -29,6 +29,7 @@ Variant variant_of(const std::string& id, const std::string& title, int samples,
   Variant variant{id, title, "render", {}};
   set(variant, "render.samples", std::to_string(samples));
   set(variant, "render.seed", std::to_string(1000 + seed));
+  set(variant, "render.indirect", "path");
   set(variant, "render.integrator", "path");
   set(variant, "image.noise_layers", "true");
   set(variant, "image.light_layers", "false");

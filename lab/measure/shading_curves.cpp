@@ -11,13 +11,15 @@ namespace {
 
 ShadingCurve path(const char* id, const char* title, const char* filter_samples) {
   ShadingCurve curve{id, title, {}};
-  curve.settings = {{"render.integrator", "path"}, {"image.filter_samples", filter_samples}};
+  curve.settings = {
+      {"render.indirect", "path"}, {"render.integrator", "path"}, {"image.filter_samples", filter_samples}};
   return curve;
 }
 
 ShadingCurve gather(const char* id, const std::string& title) {
   ShadingCurve curve{id, title, {}, true};
-  curve.settings = {{"render.integrator", "gather"}, {"image.filter_samples", "splatted"}};
+  curve.settings = {
+      {"render.indirect", "path"}, {"render.integrator", "gather"}, {"image.filter_samples", "splatted"}};
   return curve;
 }
 
@@ -51,6 +53,16 @@ ShadingCurve with_all(ShadingCurve curve) {
 }
 
 }  // namespace
+
+ShadingCurve reference_curve() {
+  return {"reference",
+          "reference",
+          {{"render.indirect", "path"},
+           {"render.integrator", "path"},
+           {"image.filter_samples", "splatted"},
+           {"render.skin_ball", "off"},
+           {"render.screen_door", "false"}}};
+}
 
 std::string same_as_gather(const SceneDescription& scene) {
   size_t skins = scene.crowds.items.empty() && scene.archives.items.empty() ? 0 : RenderParams::kFewSkins + 1;
@@ -91,7 +103,7 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
   }
   curves.push_back(path("dual", "path, indirect: dual", "drawn"));
-  curves.back().settings.emplace_back("render.indirect", "dual");
+  curves.back().settings.front().second = "dual";
   for (ShadingCurve& curve : curves) curve = with_balls(std::move(curve), "off");
   curves.push_back(with_balls(path("skin_ball", "path, skin_ball: exact", "drawn"), "exact"));
   curves.push_back(with_balls(gather("gather_skin_ball", "gather, skin_ball: exact"), "exact"));

@@ -42,6 +42,9 @@ struct ShadingCurve {
   bool adaptive = false;
 };
 
+/// Returns the settings of the reference pictures, whatever the scene says.
+ShadingCurve reference_curve();
+
 /// Returns `cache` or `no_cache`, the one that renders exactly as `gather` does with the settings of this
 /// scene. Empty if it is unknown, because it depends on how many skins a crowd or an archive has.
 std::string same_as_gather(const SceneDescription& scene);

@@ -32,7 +32,7 @@ class Sweep {
         runner_(setup, progress, count()) {}
 
   void run() {
-    const ShadingCurve &path = results.curves.front(), splatted = reference();
+    const ShadingCurve &path = results.curves.front(), splatted = reference_curve();
     if (!add(variant_of(path, "warm-up", "warm-up", kWarmUpSamples, true), {})) return;
     noise_ = results.runs.back().outcome.number("noise");
     for (const char* id : {"reference-a", "reference-b"}) {
@@ -61,15 +61,6 @@ class Sweep {
   size_t count() const {
     const size_t curves = results.curves.size(), sequences = plan_.flicker_samples.size();
     return 3 + curves * (plan_.samples.size() + 1) + (sequences > 0 ? 2 + curves * sequences : 0);
-  }
-
-  static ShadingCurve reference() {
-    return {"reference",
-            "reference",
-            {{"render.integrator", "path"},
-             {"image.filter_samples", "splatted"},
-             {"render.skin_ball", "off"},
-             {"render.screen_door", "false"}}};
   }
 
   /// Each variant has another seed, so that no two pictures share noise.
@@ -137,7 +128,7 @@ class Sweep {
     std::vector<std::vector<std::filesystem::path>> references;
     for (const char* id : {"reference-a", "reference-b"}) {
       const int samples = std::max(1, plan_.reference_samples / kSequenceShare);
-      references.push_back(render_sequence({}, variant_of(reference(), id, id, samples, true)));
+      references.push_back(render_sequence({}, variant_of(reference_curve(), id, id, samples, true)));
       if (references.back().empty()) return;
     }
     for (ShadingRun& run : results.runs) {

@@ -54,7 +54,12 @@ def floats(value: ArrayLike, name: str, *shapes: Shape) -> FloatArray:
     if array.dtype.kind == "f" and not np.isfinite(array).all():
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise ValueError(f"{name}: not finite at {place}")
-    return np.ascontiguousarray(array, dtype=np.float32)
+    with np.errstate(over="ignore"):
+        result = np.ascontiguousarray(array, dtype=np.float32)
+    if array.dtype.itemsize > 4 and array.dtype.kind == "f" and not np.isfinite(result).all():
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(result))[0])
+        raise ValueError(f"{name}: {array[place]} at {place} is too large for float32")
+    return result
 
 
 def integers(value: ArrayLike, name: str, dtype: str, *shapes: Shape) -> IntArray:

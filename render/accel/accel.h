@@ -96,7 +96,8 @@ class Accel {
   /// crossings.
   virtual float transmittance(const Ray& ray, TraceThread& thread) const = 0;
   /// Returns the strands between near and far, with opacity instead of a screen door. The ray ends at a skin,
-  /// and after `max` opaque strands (at least 1): StrandCount::strands is then infinite.
+  /// and where the sum of opacities exceeds `max` (at least 1) and less than 3 % of the light meets no
+  /// strand: StrandCount::strands is then infinite.
   virtual StrandCount strands_crossed(const Ray& ray, uint32_t max, TraceThread& thread) const = 0;
   /// Whether everything is opaque; then transmittance() is 0 or 1.
   virtual bool opaque() const = 0;

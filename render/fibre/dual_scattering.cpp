@@ -33,6 +33,15 @@ struct BackscatterShape {
   }
 };
 
+/// See DualScattering::max_strands().
+float strands_in_the_way(const FibreAverageTable& table, const Rgb& color) {
+  float most = 0;
+  for (const float sin_theta : {-0.7f, 0.0f, 0.7f})
+    most = std::max(most, max_component(table.at(sin_theta, color).forward));
+  if (!(most > 0)) return 1;
+  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(most, 0.999f))), 1.0f, kMaxStrands);
+}
+
 }  // namespace
 
 float stack_backscatter(float forward, float backward) {
@@ -42,13 +51,9 @@ float stack_backscatter(float forward, float backward) {
   return forward * forward * reflectance / (1 - backward * reflectance);
 }
 
-float DualScattering::max_strands() const {
-  float most = 0;
-  for (const float sin_theta : {-0.7f, 0.0f, 0.7f})
-    most = std::max(most, max_component(table_->at(sin_theta, color_).forward));
-  if (!(most > 0)) return 1;
-  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(most, 0.999f))), 1.0f, kMaxStrands);
-}
+DualScattering::DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo,
+                               const Rgb& color)
+    : table_(&table), frame_(tangent, wo), color_(color), max_strands_(strands_in_the_way(table, color)) {}
 
 FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float strands, float through) const {
   const FibreAngles in = frame_.angles(wi);

@@ -18,8 +18,7 @@ namespace pelage {
 /// point.
 class DualScattering {
  public:
-  DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo, const Rgb& color)
-      : table_(&table), frame_(tangent, wo), color_(color) {}
+  DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo, const Rgb& color);
 
   /// Returns the scattering of light that arrives from `wi` after it has crossed `strands` strands; infinity:
   /// none arrives. `through`: fraction that arrives without meeting any of them, which the fibre scatters as
@@ -27,12 +26,13 @@ class DualScattering {
   FibreValue eval(const FibreValue& direct, const V3f& wi, float strands, float through) const;
 
   /// Returns the number of strands that leave less than 3 % of the light of any direction.
-  float max_strands() const;
+  float max_strands() const { return max_strands_; }
 
  private:
   const FibreAverageTable* table_;
   FibreFrame frame_;
   Rgb color_;
+  float max_strands_;
 };
 
 /// Returns the fraction of light that a semi-infinite stack of fibres with the averages a_f and a_b sends

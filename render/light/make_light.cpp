@@ -10,6 +10,7 @@
 
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
+#include "base/place_of_file.h"
 #include "geom/io/host_geometry.h"
 #include "geom/io/mesh_file.h"
 #include "geom/polygon_cut.h"
@@ -152,22 +153,6 @@ struct LightMaker {
   std::shared_ptr<const Texture> image(const AssetPath& file) const {
     if (file.empty()) return nullptr;
     return with_place_of(file, [&] { return textures.load(file, ColorSpace::kAuto); });
-  }
-
-  /// Makes something from a file. An error without a line gets the place where the scene names the file.
-  template <class Make>
-  std::invoke_result_t<Make> with_place_of(const AssetPath& file, const Make& make) const {
-    try {
-      return make();
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::kStopped) throw;
-      std::vector<Problem> problems = error.problems();
-      for (Problem& problem : problems) {
-        if (problem.position.line == 0)
-          problem = {file.position, fmt::format("{}: {}", file.path.string(), problem.message)};
-      }
-      throw Error(error.kind(), std::move(problems));
-    }
   }
 };
 

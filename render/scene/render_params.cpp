@@ -62,14 +62,14 @@ void add_bounce_keys(Schema<RenderParams>& s) {
                  "many bounces",
          .min = 0,
          .max = 1024});
-  s.key(
-      "indirect", &RenderParams::indirect,
-      {.help = "How light that is scattered more than once is found. `path`: by `bounces` of paths. `dual`: "
-               "by dual scattering, a fast preview for fur: shadow rays count the strands between a point "
-               "and a light, and the average fibre tells how much light such strands pass on and scatter "
-               "back. It is an approximation: DUAL.md states its error. Needs `integrator: path`; "
-               "`bounces` has no effect, and light from skins and lights behind bends of the coat is left "
-               "out"});
+  s.key("indirect", &RenderParams::indirect,
+        {.help =
+             "How light that is scattered more than once is found. `path`: by `bounces` of paths. `dual`: "
+             "by dual scattering, a fast preview for fur: shadow rays count the strands between a point "
+             "and a light, and the average fibre tells how much light such strands pass on and scatter "
+             "back. Its mean brightness may be wrong by half or more: see DUAL.md. Needs `integrator: path`; "
+             "`bounces` has no effect, and light from skins and lights behind bends of the coat is left "
+             "out"});
 }
 
 /// What saves shadow rays and makes them cheaper.

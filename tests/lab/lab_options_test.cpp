@@ -44,6 +44,9 @@ TEST(LabOptionsTest, OfMeasure) {
   EXPECT_EQ(options.output, "out");
   EXPECT_EQ(options.repeat, 5);
   EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
+  EXPECT_FALSE(options.allow_scripts);
+  EXPECT_TRUE(parsed({"measure", "shading", "s", "--allow-scripts"}).allow_scripts);
+  EXPECT_TRUE(parsed({"compare", "s", "--allow-scripts"}).allow_scripts);
   for (const char* name : {"bounces", "bounds", "growth", "lod", "residency", "samplers", "shading"})
     EXPECT_STREQ(experiment_name(parsed({"measure", name, "s"}).experiment), name);
   EXPECT_EQ(problem({"measure", "growht", "s"}), "unknown experiment 'growht'; did you mean 'growth'?");

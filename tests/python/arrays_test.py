@@ -117,6 +117,7 @@ class FromArrays(unittest.TestCase):
         for pixels, kind, message in [
             ([1, 2], ValueError, "pixels: expected the shape"), (np.zeros((2, 2, 5)), ValueError, "1 to 4 channels"),
             (np.zeros((0, 2)), ValueError, "1 to 4 channels"), ([[np.nan]], ValueError, "pixels: not finite"),
+            (np.zeros((2, 2)) + 1e300, ValueError, r"pixels: 1e\+300 at \(0, 0\) is too large"),
             ([["a"]], TypeError, "pixels: expected numbers"),
         ]:
             with self.assertRaisesRegex(kind, message):

@@ -198,6 +198,24 @@ TEST_F(PythonOperatorTest, AGroomRefusesScriptsThatTheUserHasNotAllowed) {
   EXPECT_EQ(opened, 2);  // all strands, and some of them in another order
 }
 
+TEST_F(PythonOperatorTest, AMissingModuleHasTheSceneSPosition) {
+  class NoFile final : public OperatorScripts {
+    std::shared_ptr<const StrandScript> open(const ScriptSource& source, const Job&) const override {
+      throw Error(ErrorKind::kInput, {source.file.string(), 0, 0}, "cannot read");
+    }
+  };
+  const auto params = scene_text::read<GroomParams>(
+      "skin: rat\nstrands: 10\noperators:\n  - python: {module: nope.py, function: sway, bound: 0.1}\n");
+  const NoFile scripts;
+  try {
+    Groom::create("coat", params, rest_, textures_, job_, nullptr, nullptr, &scripts);
+    FAIL() << "found a script";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems().front().position.line, 5);  // the helper adds a line above
+    EXPECT_NE(error.problems().front().message.find("nope.py: cannot read"), std::string::npos);
+  }
+}
+
 TEST(ScriptArgumentsTest, BlocksBecomeJson) {
   const auto json = [](const std::string& text) {
     return scene_text::read<PythonOperatorParams>("module: a.py\nfunction: f\nbound: 1\narguments: " + text +
@@ -207,6 +225,14 @@ TEST(ScriptArgumentsTest, BlocksBecomeJson) {
   EXPECT_EQ(json("{a: 1, b: 0.1, c: [true, null, [], {}], d: \"1\", e: up}"),
             R"({"a": 1, "b": 0.10000000000000001, "c": [true, null, [], {}], "d": "1", "e": "up"})");
   EXPECT_EQ(json(R"({a: "\"\\\n"})"), R"({"a": "\"\\\u000a"})");
+  EXPECT_EQ(
+      json("{a: 2.0, b: 1e3, c: -0.0, d: 1e300, e: 7, f: True, g: inf}"),
+      R"({"a": 2.0, "b": 1000.0, "c": -0.0, "d": 1.0000000000000001e+300, "e": 7, "f": true, "g": "inf"})");
+  Problems infinite;
+  scene_text::read<PythonOperatorParams>(
+      "module: a.py\nfunction: f\nbound: 1\narguments: {a: .nan, b: [-.inf], c: 1e999}\n", infinite);
+  ASSERT_EQ(infinite.list().size(), 3u);
+  EXPECT_EQ(infinite.list()[1].message, "expected a finite number, got -.inf");
   Problems problems;
   scene_text::read<PythonOperatorParams>("module: a.py\nfunction: f\nbound: 1\narguments: {a b: 1}\n",
                                          problems);

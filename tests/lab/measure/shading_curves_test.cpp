@@ -58,6 +58,18 @@ TEST(ShadingCurves, ChangeOneSettingOfTheScene) {
   EXPECT_FALSE(curves[0].gather);
 }
 
+TEST(ShadingCurves, AllButDualFollowPathsWhateverTheSceneSays) {
+  std::vector<ShadingCurve> curves = shading_curves({}, {});
+  curves.push_back(reference_curve());
+  for (const ShadingCurve& curve : curves) {
+    std::vector<std::string> values;
+    for (const auto& [key, value] : curve.settings) {
+      if (key == "render.indirect") values.push_back(value);
+    }
+    EXPECT_EQ(values, std::vector<std::string>{curve.id == "dual" ? "dual" : "path"}) << curve.id;
+  }
+}
+
 TEST(ShadingCurves, SwitchWhatTheSceneDoesNot) {
   SceneDescription scene;
   const std::vector<ShadingCurve> off = shading_curves(scene, {"screen_door"});

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Accel::strands_crossed().
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "render/accel/crossings.h"
 #include "render/accel/embree_query.h"
 #include "tests/render/accel/chunk_accel_fixture.h"
 #include "tests/support/effort.h"
@@ -77,6 +81,39 @@ TEST_F(StrandCountTest, SumsUpOpacities) {
     ASSERT_LE(through, std::exp(-count.strands) * 1.0001f) << i;
   }
   EXPECT_GT(partly, 0);
+}
+
+CrossingPlace crossing(uint32_t strand) { return {strand, 0, 0}; }
+
+TEST(CountedCrossings, AnswerTheSameInEveryOrder) {
+  // The crossing with strand 1 is reported twice, and strand 2 is the one that is too many.
+  std::vector<std::pair<uint32_t, float>> reports{{1, 0.99f}, {1, 1.0f}, {2, 0.5f}};
+  std::sort(reports.begin(), reports.end());
+  do {
+    Crossings crossings(1);
+    for (const auto& [strand, opacity] : reports) crossings.count(crossing(strand), opacity);
+    EXPECT_EQ(crossings.total().strands, kEnd);
+    EXPECT_EQ(crossings.total().through, 0);
+  } while (std::next_permutation(reports.begin(), reports.end()));
+}
+
+TEST(CountedCrossings, EndSoonWhereStrandsAreThin) {
+  Crossings crossings(4);
+  uint32_t strands = 0;
+  while (strands < 10000 && crossings.count(crossing(strands), 0.05f)) ++strands;
+  EXPECT_GE(strands, 80);  // the sum of their opacities exceeds 4
+  EXPECT_LE(strands, 100);
+  EXPECT_EQ(crossings.total().strands, kEnd);
+}
+
+TEST(CountedCrossings, KeepLightThatStillArrives) {
+  Crossings crossings(1);
+  float through = 1;
+  for (uint32_t strand = 0; strand < 15; ++strand) {
+    EXPECT_TRUE(crossings.count(crossing(strand), 0.1f));
+    through *= 0.9f;
+  }
+  EXPECT_EQ(crossings.total().through, through);
 }
 
 }  // namespace
