@@ -73,9 +73,16 @@ class EditedText {
   /// Sets the text, and reads the tree again. Throws unless it is equal to the changed tree.
   void set_text(std::string text) {
     text_ = std::move(text);
-    const Value wanted = std::exchange(root_, read_text(text_, file_));
-    if (document_hash(root_) != document_hash(wanted))
+    const Value wanted = std::move(root_);
+    const auto refuse_change = [this] {
       refuse({file_, 0, 0}, "cannot be changed without changing other values; edit the file by hand");
+    };
+    try {
+      root_ = read_text(text_, file_);
+    } catch (const Error&) {  // about a text that no one has seen
+      refuse_change();
+    }
+    if (document_hash(root_) != document_hash(wanted)) refuse_change();
   }
   void splice(size_t at, size_t length, const std::string& text) {
     std::string changed = text_;
@@ -167,6 +174,23 @@ size_t end_in_brackets(const std::string& text, size_t at) {
   return at;
 }
 
+/// Returns the end of an entry of whole lines whose first line is at a byte, and whose key is in a column:
+/// the first line that is not deeper, or the comments and empty lines in front of it. Brackets may close in
+/// the column of the key.
+size_t end_of_lines(const std::string& text, size_t at, size_t column) {
+  size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+  for (size_t line = end; line < text.size();) {
+    const size_t next = std::min(text.find('\n', line), text.size() - 1) + 1;
+    const size_t first = std::min(text.find_first_not_of(" \r\n", line), next);
+    const bool is_empty = first >= next || text[first] == '#';
+    const bool closes = !is_empty && (text[first] == '}' || text[first] == ']');
+    if (!is_empty && !closes && first - line <= column) break;
+    line = next;
+    if (!is_empty) end = next;
+  }
+  return end;
+}
+
 /// Removes the bytes of a key and its value; set_text() finds out if they were others.
 void EditedText::remove(const ValueEdit& edit, Value& block) {
   std::vector<Value::Entry>& entries = block.entries();
@@ -185,18 +209,9 @@ void EditedText::remove(const ValueEdit& edit, Value& block) {
       if (begin == std::string::npos) refuse(entry->key_position, "cannot be removed; edit the file by hand");
     }
   } else {
-    // Whole lines: up to the first line that is not deeper, except comments and empty lines in front of it.
     const auto column = static_cast<size_t>(entry->key_position.column - 1);
     begin -= std::min(begin, column);
-    end = std::min(text_.find('\n', begin), text_.size() - 1) + 1;
-    for (size_t line = end; line < text_.size();) {
-      const size_t next = std::min(text_.find('\n', line), text_.size() - 1) + 1;
-      const size_t first = std::min(text_.find_first_not_of(" \r\n", line), next);
-      const bool is_empty = first >= next || text_[first] == '#';
-      if (!is_empty && first - line <= column) break;
-      line = next;
-      if (!is_empty) end = next;
-    }
+    end = end_of_lines(text_, begin, column);
   }
   entries.erase(entry);
   splice(begin, end - begin, "");
@@ -206,26 +221,35 @@ void EditedText::add(const ValueEdit& edit, Value& block) {
   std::vector<Value::Entry>& entries = block.entries();
   const std::string new_value = edit.block.empty() ? numbers_text(edit.numbers) : edit.block;
   const std::string text = key_text(edit.path.back()) + ": " + new_value;
-  const bool in_brackets = text_[byte_of(block.position())] == '{';
+  const size_t bracket = byte_of(block.position());
+  const bool in_brackets = text_[bracket] == '{';
   const auto last = edit.block.empty()
                         ? std::find_if(entries.rbegin(), entries.rend(),
                                        [this](const Value::Entry& entry) { return is_plain(entry.value); })
                         : entries.rend();
+  const auto column = static_cast<size_t>(entries.front().key_position.column - 1);
+  const std::string line_end = text_.find("\r\n") == std::string::npos ? "\n" : "\r\n";
+  const std::string separator = in_brackets ? ", " : line_end + std::string(column, ' ');
   size_t at = 0;
-  std::string inserted;
+  std::string inserted = separator + text;
   auto place = entries.begin();
   if (last != entries.rend()) {
     place = last.base();
     at = byte_of(last->value.position()) + last->value.text().size();
     if (!in_brackets) at = std::min(text_.find('\n', at), text_.size());
     if (!in_brackets && text_[at - 1] == '\r') --at;
+  } else if (in_brackets) {
+    // A comment stays with the first key if it is on a line between the bracket and the key.
+    const size_t first = byte_of(entries.front().key_position);
+    const bool same_line = std::min(text_.find('\n', bracket), text_.size()) > first;
+    at = same_line ? first : bracket + 1;
+    inserted = text + (same_line ? ", " : ",");
   } else {
-    at = byte_of(entries.front().key_position);
+    place = entries.end();
+    const size_t key = byte_of(entries.back().key_position);
+    at = end_of_lines(text_, key - std::min(key, column), column);
+    if (text_[at - 1] == '\n') inserted = separator.substr(line_end.size()) + text + line_end;
   }
-  const size_t column = static_cast<size_t>(entries.front().key_position.column - 1);
-  const std::string line_end = text_.find("\r\n") == std::string::npos ? "\n" : "\r\n";
-  const std::string separator = in_brackets ? ", " : line_end + std::string(column, ' ');
-  inserted = last != entries.rend() ? separator + text : text + separator;
   Value value = edit.numbers.size() == 1 ? Value::scalar({}, new_value) : read_text(new_value, file_);
   entries.insert(place, {edit.path.back(), {}, std::move(value)});
   splice(at, 0, inserted);

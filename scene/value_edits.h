@@ -20,7 +20,8 @@ struct ValueEdit {
 
 /// Returns the text of a scene file with new values. Changes only the bytes of these values, and keeps all
 /// others: comments, formatting and line ends. Adds a missing key after another key of its block, and a block
-/// before all others. Removes a key together with the comments behind its value.
+/// behind all others, or before all others in brackets. Removes a key together with the comments behind its
+/// value.
 ///
 /// Throws Error (kInput) with one line if a value cannot be changed in this way: its block is not in the
 /// text, the value is neither a number nor a list of as many numbers as the new value has, a new block exists

@@ -43,12 +43,12 @@ std::string block_text(const LightChange& change) {
 }  // namespace
 
 std::vector<ValueEdit> light_change_edits(const LightChanges& changes) {
-  std::vector<ValueEdit> edits;
+  std::vector<ValueEdit> edits, removals;
   for (const auto& [name, change] : changes) {
     ValueEdit edit{{"lights", name}, {}};
     if (change.removed) {
       edit.removed = true;
-      edits.push_back(std::move(edit));
+      removals.push_back(std::move(edit));
     } else if (!change.added_type.empty()) {
       edit.block = block_text(change);
       edits.push_back(std::move(edit));
@@ -56,6 +56,7 @@ std::vector<ValueEdit> light_change_edits(const LightChanges& changes) {
       for (const auto& [key, numbers] : change.values) edits.push_back({{"lights", name, key}, numbers});
     }
   }
+  edits.insert(edits.end(), removals.begin(), removals.end());
   return edits;
 }
 

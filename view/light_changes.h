@@ -20,7 +20,8 @@ struct LightChange {
 };
 using LightChanges = std::map<std::string, LightChange>;  ///< by the name of the light
 
-/// Returns the changes as edits of a scene file.
+/// Returns the changes as edits of a scene file. Removals are last: the block `lights` never becomes empty on
+/// the way from one only light to another.
 std::vector<ValueEdit> light_change_edits(const LightChanges& changes);
 /// Returns the changes as options `--set`.
 std::vector<Override> light_change_overrides(const LightChanges& changes);

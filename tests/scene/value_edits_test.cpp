@@ -70,8 +70,8 @@ TEST(ValueEdits, AMissingKeyIsAddedToItsBlock) {
       {"lights:\r\n  key:\r\n    type: sphere\r\n",
        "lights:\r\n  key:\r\n    type: sphere\r\n    intensity: 2.5\r\n"},
       {"lights:\n  key:\n    type: sphere", "lights:\n  key:\n    type: sphere\n    intensity: 2.5"},
-      {"lights:\n  key:\n    position: [1, 2, 3]\n",
-       "lights:\n  key:\n    intensity: 2.5\n    position: [1, 2, 3]\n"},
+      {"lights:\n  key:\n    # its place\n    position: [1, 2, 3]\n",
+       "lights:\n  key:\n    # its place\n    position: [1, 2, 3]\n    intensity: 2.5\n"},
   };
   for (const Case& one : cases) EXPECT_EQ(edited(one.before, {kIntensity}), one.after);
 }
@@ -108,9 +108,8 @@ TEST(ValueEdits, BlocksAreAddedAndRemoved) {
       "lights:  # two\n  # warm\n  key:\n    radius: 1  # m\n\n    power: 3\n  # cold\n  sky: {power: "
       "2}\nrender: {}\n";
   EXPECT_EQ(with_values(lines, "scene", {add}),
-            "lights:  # two\n  # warm\n  lamp: {type: sphere, radius: 0.5}\n  key:\n    radius: 1  # m\n\n   "
-            " power: 3\n  # cold\n"
-            "  sky: {power: 2}\nrender: {}\n");
+            "lights:  # two\n  # warm\n  key:\n    radius: 1  # m\n\n    power: 3\n  # cold\n"
+            "  sky: {power: 2}\n  lamp: {type: sphere, radius: 0.5}\nrender: {}\n");
   EXPECT_EQ(with_values(lines, "scene", {removed("key")}),
             "lights:  # two\n  # warm\n  # cold\n  sky: {power: 2}\nrender: {}\n");
   EXPECT_EQ(with_values(lines, "scene", {removed("sky")}),
@@ -134,6 +133,33 @@ TEST(ValueEdits, BlocksAreAddedAndRemoved) {
            {"lights: {key: {a: 1}}", removed("key"), "is the last one here"},
            {"render: {}", add, "has no block `lights`"}})
     EXPECT_NE(error_of([&] { with_values(text, "scene", {edit}); }).find(why), std::string::npos) << why;
+}
+
+TEST(ValueEdits, CommentsStayWithTheirBlocks) {
+  const ValueEdit add{{"lights", "lamp"}, {}, "{a: 1}"};
+  const Case cases[] = {
+      {"lights:\n  # my fill\n  fill:\n    a: 2\n\n# all\nrender: {}\n",
+       "lights:\n  # my fill\n  fill:\n    a: 2\n  lamp: {a: 1}\n\n# all\nrender: {}\n"},
+      {"lights:\r\n  # my fill\r\n  fill: {a: 2}  # warm\r\n",
+       "lights:\r\n  # my fill\r\n  fill: {a: 2}  # warm\r\n  lamp: {a: 1}\r\n"},
+      {"lights:\n  # my fill\n  fill: {a: 2}", "lights:\n  # my fill\n  fill: {a: 2}\n  lamp: {a: 1}"},
+      {"lights:\n  fill: {\n    a: 2\n  }\n", "lights:\n  fill: {\n    a: 2\n  }\n  lamp: {a: 1}\n"},
+      {"lights: {\n  # my fill\n  fill: {a: 2},\n}\n",
+       "lights: {lamp: {a: 1},\n  # my fill\n  fill: {a: 2},\n}\n"},
+      {"lights: { fill: {a: 2} }\n", "lights: { lamp: {a: 1}, fill: {a: 2} }\n"}};
+  for (const Case& one : cases) EXPECT_EQ(edited(one.before, {add}), one.after);
+}
+
+TEST(ValueEdits, BracketsMayCloseInTheColumnOfTheKey) {
+  const ValueEdit remove{{"lights", "rim"}, {}, {}, true};
+  for (const char* head : {"lights:\n  key: {a: 1}\n", "lights:\n  # one\n  key: {a: 1}\n"})
+    for (const char* tail : {"", "  # cold\n  sky: {a: 1}\n"})
+      EXPECT_EQ(edited(std::string(head) + "  rim: {\n    a: [\n      1\n    ]\n  }\n" + tail, {remove}),
+                std::string(head) + tail);
+  // A bracket in a comment is taken for one of the text; the message is about the file as it is.
+  const std::string odd = "lights: {key: {a: 1},\n  rim: {a: 1 # }\n  }, sky: {a: 1}}\n";
+  EXPECT_EQ(error_of([&] { edited(odd, {remove}); }),
+            "a.yaml: cannot be changed without changing other values; edit the file by hand");
 }
 
 TEST(ValueEdits, TheTextToPasteNamesEachBlockOnce) {

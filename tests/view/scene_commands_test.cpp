@@ -108,6 +108,21 @@ TEST_F(SceneCommandsTest, LightsAreMovedAddedAndRemoved) {
   expect_refused("rig.json", R"({"action": "text"})", "nothing to write");
 }
 
+TEST_F(SceneCommandsTest, TheOnlyLightIsReplaced) {
+  const std::string text = read_file(path());
+  const size_t begin = text.find("lights:"), end = text.find("\nrender:");
+  ASSERT_LT(begin, end);
+  scene_.write("scene.yaml", std::string(text).replace(
+                                 begin, end - begin, "lights:\n  key: {type: sphere, position: [3, 3, 5]}"));
+  state_.update([](ViewStatus& status) { status.lights = {{"key", "sphere", {}, false}}; });
+  EXPECT_EQ(run("rig.json", R"({"action": "remove", "light": "key"})").status, 200);
+  EXPECT_EQ(run("rig.json", R"({"action": "add", "type": "sphere"})").status, 200);
+  const CommandAnswer written = run("rig.json", R"({"action": "write"})");
+  EXPECT_EQ(written.status, 200) << written.json;
+  EXPECT_NE(read_file(path()).find("lights:\n  sphere: {type: sphere}\n"), std::string::npos);
+  EXPECT_EQ(load_scene(path(), {}).lights.items.size(), 1u);
+}
+
 TEST_F(SceneCommandsTest, ManyBouncesArePreviewed) {
   EXPECT_EQ(run("preview.json", R"({"dual": true})").status, 200);
   EXPECT_TRUE(state_.control().dual());
