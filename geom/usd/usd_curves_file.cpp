@@ -96,7 +96,7 @@ class UsdCurvesReader {
       warnings_.add("curves without points are skipped", prim.position());
       return;
     }
-    if (points->attribute->value.empty() && points->attribute->times.size() > 1)
+    if (points->attribute->times.size() > 1)
       warnings_.add("time samples after the first are skipped", prim.position());
     batch.points = usd_floats(*points->layer, points->text, 3);
     int64_t sum = 0;

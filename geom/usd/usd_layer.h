@@ -47,7 +47,7 @@ struct UsdPrimSpec {
   size_t place = 0;
   bool active = true, has_active = false;
   std::vector<UsdArc> references, payloads;
-  std::vector<std::string> inherits;  ///< paths of inherited and specialised prims
+  std::vector<std::string> inherits, specializes;  ///< paths of prims
   std::map<std::string, std::string> selections;
   std::map<std::string, std::vector<UsdPrimSpec>> variant_sets;
   std::vector<UsdAttribute> attributes;

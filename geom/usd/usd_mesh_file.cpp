@@ -61,7 +61,7 @@ class UsdMeshReader {
   std::optional<UsdValue> required(const UsdPrim& prim, const char* attribute) {
     std::optional<UsdValue> value = prim.find(attribute);
     if (!value) prim.fail(fmt::format("the mesh has no {}", attribute));
-    if (value->attribute->value.empty() && value->attribute->times.size() > 1)
+    if (value->attribute->times.size() > 1)
       warnings_.add("time samples after the first are skipped", prim.position());
     return value;
   }

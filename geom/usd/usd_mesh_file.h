@@ -20,7 +20,7 @@ struct UsdMeshFile {
 /// axis. Lengths stay in the unit of the file. Each prim is an object of the mesh (`FaceNames`), and its
 /// GeomSubsets are groups. Reads creases, corners, holes, st (or else the first primvar of texCoord2 values),
 /// displayColor of vertices, and orientation. Follows references, payloads, sublayers, inherited prims and
-/// selected variants. Of attributes with time samples only, reads the earliest.
+/// selected variants. Of attributes with time samples, reads the earliest.
 ///
 /// Throws Error (kInput) with line and column for malformed files, for indices out of range, for numbers that
 /// are not finite, and for files without a mesh.

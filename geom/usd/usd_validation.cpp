@@ -18,13 +18,13 @@ namespace {
 /// Extents are written with fewer digits than points by some programs.
 constexpr float kExtentSlack = 1e-4f;
 
-/// All samples of an attribute: the default value at time NaN, then those with times.
+/// All samples of an attribute: those with times, or else the default value at time NaN.
 std::vector<std::pair<double, UsdText>> all_samples(const UsdValue& value) {
   std::vector<std::pair<double, UsdText>> samples;
-  if (!value.attribute->value.empty()) samples.emplace_back(std::nan(""), value.attribute->value);
   for (const auto& [time, text] : value.attribute->times) {
     if (!text.empty()) samples.emplace_back(time, text);
   }
+  if (samples.empty()) samples.emplace_back(std::nan(""), value.text);
   return samples;
 }
 
@@ -145,7 +145,7 @@ class CurvesValidator {
             fmt::format("the extent is smaller than the strands with half their width{}", at_time(time)));
       }
     }
-    if (value->attribute->value.empty() && value->attribute->times.size() < boxes_.size())
+    if (!value->attribute->times.empty() && value->attribute->times.size() < boxes_.size())
       problem("the extent has fewer time samples than the points");
   }
 

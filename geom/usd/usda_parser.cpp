@@ -127,7 +127,8 @@ class UsdaParser {
       } else if (key == "inherits" || key == "specializes") {
         std::vector<UsdArc> paths;
         arcs(paths);
-        for (UsdArc& arc : paths) spec.inherits.push_back(std::move(arc.path));
+        std::vector<std::string>& to = key == "inherits" ? spec.inherits : spec.specializes;
+        for (UsdArc& arc : paths) to.push_back(std::move(arc.path));
       } else if (key == "variants") {
         selections(spec);
       } else if (key == "active") {

@@ -83,8 +83,11 @@ void UsdaScanner::skip_quoted() {
   const char quote = text_[at_];
   const std::string three(3, quote);
   if (text_.substr(at_, 3) == three) {
-    for (at_ += 3; text_.substr(at_, 3) != three; ++at_) {
-      if (at_ >= text_.size()) fail("the text has no closing quotes");
+    const size_t first = at_;
+    for (at_ += 3;; ++at_) {
+      // A backslash at the end of the file leads beyond it.
+      if (at_ >= text_.size()) layer_.fail(first, "the text has no closing quotes");
+      if (text_.substr(at_, 3) == three) break;
       if (text_[at_] == '\\') ++at_;
     }
     at_ += 3;
