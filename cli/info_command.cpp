@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <string_view>
 
 #include "base/file.h"
 #include "cli/commands.h"
@@ -14,13 +15,13 @@ namespace {
 
 /// A file of USD may have curves, meshes or both.
 std::string describe_usd(const Options& options) {
-  std::string text;
   try {
-    text = describe_strands(read_strands(options.input, {options.basis, options.default_width}));
-  } catch (const Error& without_curves) {
+    return describe_strands(read_strands(options.input, {options.basis, options.default_width}));
+  } catch (const Error& error) {
+    // Other errors would come again, or hide behind those of the meshes.
+    if (!std::string_view(error.what()).ends_with(": has no curves")) throw;
     return describe_mesh(read_mesh_file(options.input), options.input);
   }
-  return text;
 }
 
 std::string describe_file(const Options& options) {

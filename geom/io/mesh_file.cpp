@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/job.h"
+#include "base/memory_budget.h"
 #include "base/progress.h"
 #include "geom/io/obj_file.h"
 #include "geom/usd/usd_mesh_file.h"
@@ -20,7 +21,12 @@ ControlMesh read_mesh_file(const std::filesystem::path& path) {
 
 ControlMesh read_mesh_file(const std::filesystem::path& path, const Job& job) {
   if (!is_usd_file(path)) return read_obj(path, job);
-  UsdMeshFile file = read_usd_mesh(path);
+  MemoryCharge reading;
+  UsdMeshFile file = read_usd_mesh(path, [&](int64_t bytes) {
+    job.check_stop();
+    reading = {};
+    reading = reserve(job.ledger, MemoryTag::kSkins, bytes, "reading " + path.filename().string());
+  });
   for (const std::string& warning : file.warnings) job.progress.warn(warning);
   job.check_stop();
   return std::move(file.mesh);

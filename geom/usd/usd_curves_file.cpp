@@ -66,7 +66,17 @@ class UsdCurvesReader {
   void charge(const UsdPrim& prim) {
     for (const std::string& name : prim.attribute_names()) {
       const std::optional<UsdValue> value = prim.find(name);
-      if (value) bytes_ += kMemoryPerText * static_cast<int64_t>(value->text.end - value->text.begin);
+      if (!value) continue;
+      int64_t per_text = kMemoryPerText;
+      if (name.ends_with(":indices")) {
+        // Each index, which has two characters or more, becomes an element.
+        const std::optional<UsdValue> of = prim.find(name.substr(0, name.rfind(':')));
+        const size_t size = of ? usd_components(of->attribute->type) *
+                                     static_cast<size_t>(std::max(of->attribute->element_size, 1))
+                               : 0;
+        if (size <= kMaxPrimvarComponents) per_text *= static_cast<int64_t>(std::max<size_t>(size, 1));
+      }
+      bytes_ += per_text * static_cast<int64_t>(value->text.end - value->text.begin);
     }
     if (bytes_ > options_.max_bytes) refuse(prim.position());
   }
@@ -96,13 +106,17 @@ class UsdCurvesReader {
       warnings_.add("curves without points are skipped", prim.position());
       return;
     }
-    if (points->attribute->value.empty() && points->attribute->times.size() > 1)
+    if (points->attribute->times.size() > 1)
       warnings_.add("time samples after the first are skipped", prim.position());
     batch.points = usd_floats(*points->layer, points->text, 3);
     int64_t sum = 0;
     const auto vertices = static_cast<int64_t>(batch.points.size() / 3);
     for (const int64_t count : usd_integers(*counts->layer, counts->text)) {
-      if (count < 0 || count > vertices - sum) {
+      if (count < 0) {
+        counts->layer->fail(counts->attribute->place,
+                            fmt::format("a curve has {} points (curveVertexCounts)", count));
+      }
+      if (count > vertices - sum) {
         counts->layer->fail(counts->attribute->place,
                             fmt::format("curveVertexCounts need more than the {} points", vertices));
       }

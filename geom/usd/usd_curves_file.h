@@ -30,7 +30,7 @@ struct UsdCurvesOptions {
 /// roots, and primvars of numbers of every interpolation; displayColor and displayOpacity become "color" and
 /// "opacity". If all strands have different ids (primvars:ids or ids), the strands are sorted by them, so
 /// that strands of a coat keep their order and, if none is missing, their ids. Of attributes with time
-/// samples only, reads the earliest. Composes the scene as read_usd_mesh() does.
+/// samples, reads the earliest. Composes the scene as read_usd_mesh() does.
 ///
 /// Throws Error: kInput with line and column for malformed files and counts that do not fit, kMemory when the
 /// strands need more than `max_bytes`.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,7 +48,7 @@ struct UsdPrimSpec {
   size_t place = 0;
   bool active = true, has_active = false;
   std::vector<UsdArc> references, payloads;
-  std::vector<std::string> inherits;  ///< paths of inherited and specialised prims
+  std::vector<std::string> inherits, specializes;  ///< paths of prims
   std::map<std::string, std::string> selections;
   std::map<std::string, std::vector<UsdPrimSpec>> variant_sets;
   std::vector<UsdAttribute> attributes;
@@ -85,6 +86,12 @@ class UsdLayer {
  private:
   friend class UsdaParser;
   void parse();
+  void mark_lines() const;
+
+  /// What comes before a part of the text.
+  struct LineMark {
+    size_t lines = 0, line_begin = 0;
+  };
 
   std::filesystem::path path_;
   MappedFile file_;
@@ -94,6 +101,8 @@ class UsdLayer {
   bool z_up_ = false;
   double meters_per_unit_ = 0.01;
   UsdPrimSpec root_;
+  mutable std::once_flag marked_;
+  mutable std::vector<LineMark> marks_;  // set once
 };
 
 }  // namespace pelage

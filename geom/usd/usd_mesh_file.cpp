@@ -61,7 +61,7 @@ class UsdMeshReader {
   std::optional<UsdValue> required(const UsdPrim& prim, const char* attribute) {
     std::optional<UsdValue> value = prim.find(attribute);
     if (!value) prim.fail(fmt::format("the mesh has no {}", attribute));
-    if (value->attribute->value.empty() && value->attribute->times.size() > 1)
+    if (value->attribute->times.size() > 1)
       warnings_.add("time samples after the first are skipped", prim.position());
     return value;
   }
@@ -246,10 +246,25 @@ class UsdMeshReader {
   std::string mesh_path_;
 };
 
-UsdMeshFile read_meshes(UsdStage& stage, const std::filesystem::path& path, UsdWarnings& warnings) {
+/// Bytes of memory per byte of text: numbers have about ten characters, and arrays grow by doubling.
+constexpr size_t kMeshMemoryPerText = 4;
+
+UsdMeshFile read_meshes(UsdStage& stage, const std::filesystem::path& path, const UsdMeshReserve& reserve,
+                        UsdWarnings& warnings) {
   UsdMeshFile file;
   UsdMeshReader reader(file.mesh, warnings);
-  stage.visit([&](const UsdPrim& prim) { reader.add(prim); });
+  stage.visit([&](const UsdPrim& prim) {
+    if (reserve) {
+      size_t text = 0;
+      for (const std::string& name :
+           prim.type == "Mesh" ? prim.attribute_names() : std::vector<std::string>()) {
+        if (const std::optional<UsdValue> value = prim.find(name))
+          text += value->text.end - value->text.begin;
+      }
+      reserve(static_cast<int64_t>(file.mesh.bytes() + kMeshMemoryPerText * text));
+    }
+    reader.add(prim);
+  });
   if (file.mesh.face_count() == 0) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no mesh");
   reader.finish();
   file.warnings = warnings.lines();
@@ -258,16 +273,17 @@ UsdMeshFile read_meshes(UsdStage& stage, const std::filesystem::path& path, UsdW
 
 }  // namespace
 
-UsdMeshFile read_usd_mesh(const std::filesystem::path& path) {
+UsdMeshFile read_usd_mesh(const std::filesystem::path& path, const UsdMeshReserve& reserve) {
   UsdWarnings warnings;
   UsdStage stage(path, warnings);
-  return read_meshes(stage, path, warnings);
+  return read_meshes(stage, path, reserve, warnings);
 }
 
-UsdMeshFile read_usd_mesh(const std::filesystem::path& path, std::string_view text) {
+UsdMeshFile read_usd_mesh(const std::filesystem::path& path, std::string_view text,
+                          const UsdMeshReserve& reserve) {
   UsdWarnings warnings;
   UsdStage stage(path, text, warnings);
-  return read_meshes(stage, path, warnings);
+  return read_meshes(stage, path, reserve, warnings);
 }
 
 }  // namespace pelage

@@ -11,6 +11,8 @@
 namespace pelage {
 namespace {
 
+constexpr size_t kMaxElement = 16;
+
 size_t count_of(const std::string& interpolation, const UsdPrimvarCounts& counts) {
   if (interpolation == "constant") return 1;
   if (interpolation == "uniform") return counts.uniform;
@@ -24,7 +26,9 @@ void apply_indices(const UsdPrim& prim, const std::string& attribute, UsdPrimvar
   const std::optional<UsdValue> indices = prim.find(attribute + ":indices");
   if (!indices) return;
   std::vector<float> values;
-  for (const int64_t index : usd_integers(*indices->layer, indices->text)) {
+  const std::vector<int64_t> numbers = usd_integers(*indices->layer, indices->text);
+  values.reserve(numbers.size() * primvar.components);
+  for (const int64_t index : numbers) {
     if (index < 0 || static_cast<size_t>(index) >= primvar.count()) {
       indices->layer->fail(indices->attribute->place,
                            fmt::format("the index {} is not one of {} elements", index, primvar.count()));
@@ -45,9 +49,15 @@ std::optional<UsdPrimvar> usd_primvar(const UsdPrim& prim, const std::string& at
   const size_t components = usd_components(value->attribute->type);
   if (components == 0) return {};
   UsdPrimvar primvar;
-  primvar.values = usd_floats(*value->layer, value->text, components);
   const int element_size = value->attribute->element_size;
   primvar.components = components * static_cast<size_t>(std::max(element_size, 1));
+  if (primvar.components > kMaxElement) {
+    // Indices repeat elements, so long ones could take any amount of memory.
+    warnings.add("primvars with more than 16 numbers per element are skipped",
+                 value->layer->position(value->attribute->place));
+    return {};
+  }
+  primvar.values = usd_floats(*value->layer, value->text, components);
   if (primvar.values.size() % primvar.components != 0) {
     value->layer->fail(value->attribute->place, "the number of values is no multiple of elementSize");
   }

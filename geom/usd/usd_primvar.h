@@ -22,7 +22,8 @@ struct UsdPrimvarCounts {
   size_t uniform = 0, varying = 0, vertex = 0, face_varying = 0;
 };
 
-/// Reads an attribute or primvar of numbers; empty if it has no value or is not of numbers. Without a stated
+/// Reads an attribute or primvar of numbers; empty if it has no value, is not of numbers,
+/// or has elements of more than 16 numbers, which gives a warning. Without a stated
 /// interpolation, or with one that does not fit its size, the interpolation is the one that fits; a warning
 /// tells the second case. Throws Error (kInput) with the place of the attribute if no interpolation fits, or
 /// if an index is out of range.

@@ -2,6 +2,7 @@
 #include "geom/usd/usd_stage.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/file.h"
 #include "base/visible_text.h"
@@ -10,28 +11,14 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMaxPrims = 1'000'000, kMaxChain = 256, kRecentLayers = 32;
-constexpr ptrdiff_t kMaxRepetitions = 4;
-constexpr int kMaxSublayerDepth = 64;
+constexpr size_t kMaxPrims = 1'000'000, kRecentLayers = 32, kMaxSublayerDepth = 64;
+constexpr int kMaxStageDepth = 512;
 
-std::shared_ptr<const UsdLayer> open_layer(const std::filesystem::path& path) {
-  return std::make_shared<const UsdLayer>(path);
-}
-
-/// What the layers of a stack state about the prim with a path.
-std::vector<UsdOpinion> opinions_at(const std::shared_ptr<const UsdLayerStack>& stack,
-                                    const std::string& path) {
-  std::vector<UsdOpinion> found;
-  for (const auto& layer : stack->layers) {
-    const UsdPrimSpec* spec = &layer->root();
-    for (size_t begin = 1; spec && begin < path.size();) {
-      const size_t end = std::min(path.find('/', begin), path.size());
-      spec = spec->child(path.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    if (spec) found.push_back({stack, layer.get(), spec});
-  }
-  return found;
+/// The name of a file that all paths to it share.
+std::string key_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path full = std::filesystem::weakly_canonical(path, error);
+  return error ? path.string() : full.string();
 }
 
 bool any_specifier(const UsdPrim& prim, std::string_view specifier) {
@@ -45,11 +32,11 @@ std::optional<UsdValue> UsdPrim::find(std::string_view attribute) const {
   for (const UsdOpinion& opinion : opinions) {
     const UsdAttribute* found = opinion.spec->find(attribute);
     if (!found) continue;
-    if (!found->value.empty()) return UsdValue{opinion.layer, found, found->value};
     const auto earliest = std::min_element(found->times.begin(), found->times.end(),
                                            [](const auto& a, const auto& b) { return a.first < b.first; });
     if (earliest != found->times.end() && !earliest->second.empty())
       return UsdValue{opinion.layer, found, earliest->second};
+    if (!found->value.empty()) return UsdValue{opinion.layer, found, found->value};
   }
   return {};
 }
@@ -83,72 +70,89 @@ void UsdPrim::fail(const std::string& message) const {
   throw Error(ErrorKind::kInput, position(), "<" + visible(path) + ">: " + message);
 }
 
-UsdStage::UsdStage(const std::filesystem::path& path, UsdWarnings& warnings) : warnings_(warnings) {
+UsdStage::UsdStage(const std::filesystem::path& path, UsdWarnings& warnings)
+    : warnings_(warnings), composer_([this](const auto& file) { return open(file); }, warnings) {
   root_ = open(path);
 }
 
 UsdStage::UsdStage(const std::filesystem::path& path, std::string_view text, UsdWarnings& warnings)
-    : warnings_(warnings) {
+    : warnings_(warnings), composer_([this](const auto& file) { return open(file); }, warnings) {
   auto stack = std::make_shared<UsdLayerStack>();
   stack->layers.push_back(std::make_shared<const UsdLayer>(path, text));
-  add_sublayers(*stack->layers.front(), *stack, 0);
+  std::vector<std::string> ancestors{key_of(path)};
+  add_sublayers(*stack->layers.front(), *stack, ancestors);
   root_ = stack;
 }
 
 UsdStage::Stack UsdStage::open(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::path full = std::filesystem::weakly_canonical(path, error);
-  const std::string key = error ? path.string() : full.string();
+  const std::string key = key_of(path);
   if (Stack known = open_[key].lock()) return known;
   auto stack = std::make_shared<UsdLayerStack>();
-  stack->layers.push_back(open_layer(path));
-  add_sublayers(*stack->layers.front(), *stack, 0);
+  stack->layers.push_back(open_layer(path, key));
+  std::vector<std::string> ancestors{key};
+  add_sublayers(*stack->layers.front(), *stack, ancestors);
   open_[key] = stack;
   recent_.push_back(stack);
   if (recent_.size() > kRecentLayers) recent_.pop_front();
   return stack;
 }
 
-void UsdStage::add_sublayers(const UsdLayer& layer, UsdLayerStack& stack, int depth) {
+std::shared_ptr<const UsdLayer> UsdStage::open_layer(const std::filesystem::path& path,
+                                                     const std::string& key) {
+  std::weak_ptr<const UsdLayer>& known = layers_[key];
+  std::shared_ptr<const UsdLayer> layer = known.lock();
+  if (!layer) known = layer = std::make_shared<const UsdLayer>(path);
+  return layer;
+}
+
+void UsdStage::add_sublayers(const UsdLayer& layer, UsdLayerStack& stack,
+                             std::vector<std::string>& ancestors) {
   for (const UsdArc& arc : layer.sublayers()) {
     const std::filesystem::path path = layer.path().parent_path() / arc.asset;
     if (const std::string problem = file_problem(path); !problem.empty())
       layer.fail(arc.place, "'" + visible(path.string()) + "': " + problem);
-    if (depth == kMaxSublayerDepth) layer.fail(arc.place, "sublayers contain themselves");
+    const std::string key = key_of(path);
+    if (std::find(ancestors.begin(), ancestors.end(), key) != ancestors.end())
+      layer.fail(arc.place, "sublayers contain themselves");
+    if (ancestors.size() > kMaxSublayerDepth)
+      layer.fail(arc.place, "sublayers are nested deeper than 64 levels");
     if (stack.layers.size() > 1000) layer.fail(arc.place, "the file has more than 1,000 sublayers");
-    stack.layers.push_back(open_layer(path));
-    const std::shared_ptr<const UsdLayer> added = stack.layers.back();
-    add_sublayers(*added, stack, depth + 1);
+    const std::shared_ptr<const UsdLayer> added = open_layer(path, key);
+    stack.layers.push_back(added);
+    ancestors.push_back(key);
+    add_sublayers(*added, stack, ancestors);
+    ancestors.pop_back();
   }
 }
 
 void UsdStage::visit(const std::function<void(const UsdPrim&)>& use) {
   UsdPrim root;
-  for (const auto& layer : root_->layers) root.opinions.push_back({root_, layer.get(), &layer->root()});
+  UsdPrimNode node;
+  node.site = std::make_shared<const UsdSite>(UsdSite{root_, "", 0, 0, nullptr});
+  for (const auto& layer : root_->layers) node.specs.push_back({root_, layer.get(), &layer->root()});
+  root.opinions = node.specs;
   if (root_layer().is_z_up()) up_ = M44f(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
   root.to_world = up_;
   prims_ = 0;
-  visit_children(root, {}, use);
+  visit_children(root, node, 1, use);
 }
 
-void UsdStage::visit_children(const UsdPrim& parent, const Chain& chain,
+void UsdStage::visit_children(const UsdPrim& parent, const UsdPrimNode& node, int depth,
                               const std::function<void(const UsdPrim&)>& use) {
   std::vector<std::string> names;
-  std::map<std::string, std::vector<UsdOpinion>> children;
+  std::set<std::string_view> known;
   for (const UsdOpinion& opinion : parent.opinions) {
     for (const UsdPrimSpec& child : opinion.spec->children) {
-      std::vector<UsdOpinion>& of_name = children[child.name];
-      if (of_name.empty()) names.push_back(child.name);
-      of_name.push_back({opinion.stack, opinion.layer, &child});
+      if (known.insert(child.name).second) names.push_back(child.name);
     }
   }
   for (const std::string& name : names) {
     UsdPrim prim;
     prim.path = parent.path + "/" + name;
-    prim.opinions = std::move(children[name]);
+    if (depth > kMaxStageDepth) parent.fail("prims are nested deeper than 512 levels");
+    const UsdPrimNode child = composer_.child(node, name, prim.path, depth);
+    prim.opinions = usd_opinions(child);
     if (++prims_ > kMaxPrims) prim.fail("the scene has more than 1,000,000 prims");
-    Chain longer = chain;
-    expand(prim.opinions, longer);
     for (const UsdOpinion& opinion : prim.opinions) {
       if (prim.type.empty()) prim.type = opinion.spec->type;
     }
@@ -157,7 +161,7 @@ void UsdStage::visit_children(const UsdPrim& parent, const Chain& chain,
     const M44f local = usd_local_transform(prim, resets, warnings_);
     prim.to_world = local * (resets ? up_ : parent.to_world);
     use(prim);
-    visit_children(prim, longer, use);
+    visit_children(prim, child, depth + 1, use);
   }
 }
 
@@ -182,80 +186,6 @@ bool UsdStage::is_shown(const UsdPrim& prim) {
     return false;
   }
   return true;
-}
-
-/// Adds what references, payloads, inherited prims and variants state, in the order of their strength.
-void UsdStage::expand(std::vector<UsdOpinion>& opinions, Chain& chain) {
-  for (size_t first = 0; first < opinions.size();) {
-    const size_t end = opinions.size();
-    std::vector<UsdOpinion> added;
-    for (size_t i = first; i < end; ++i) {
-      const UsdOpinion from = opinions[i];
-      for (const std::string& path : from.spec->inherits)
-        add_target(from.stack, path, from, from.spec->place, chain, added);
-    }
-    for (size_t i = first; i < end; ++i) add_variants(opinions[i], opinions, added);
-    for (size_t i = first; i < end; ++i) {
-      const UsdOpinion from = opinions[i];
-      for (const UsdArc& arc : from.spec->references) add_arc(from, arc, chain, added);
-    }
-    for (size_t i = first; i < end; ++i) {
-      const UsdOpinion from = opinions[i];
-      for (const UsdArc& arc : from.spec->payloads) add_arc(from, arc, chain, added);
-    }
-    opinions.insert(opinions.end(), added.begin(), added.end());
-    first = end;
-  }
-}
-
-void UsdStage::add_variants(const UsdOpinion& opinion, const std::vector<UsdOpinion>& all,
-                            std::vector<UsdOpinion>& added) {
-  for (const auto& [set, variants] : opinion.spec->variant_sets) {
-    const std::string* selected = nullptr;
-    for (const UsdOpinion& other : all) {
-      const auto found = other.spec->selections.find(set);
-      if (!selected && found != other.spec->selections.end()) selected = &found->second;
-    }
-    if (!selected) {
-      warnings_.add("variant sets without a selection are skipped",
-                    opinion.layer->position(opinion.spec->place));
-      continue;
-    }
-    for (const UsdPrimSpec& variant : variants) {
-      if (variant.name == *selected) added.push_back({opinion.stack, opinion.layer, &variant});
-    }
-  }
-}
-
-void UsdStage::add_arc(const UsdOpinion& from, const UsdArc& arc, Chain& chain,
-                       std::vector<UsdOpinion>& added) {
-  Stack stack = from.stack;
-  if (!arc.asset.empty()) {
-    const std::filesystem::path path = from.layer->path().parent_path() / arc.asset;
-    if (const std::string problem = file_problem(path); !problem.empty())
-      from.layer->fail(arc.place, "'" + visible(path.string()) + "': " + problem);
-    stack = open(path);
-  }
-  std::string target = arc.path;
-  if (target.empty()) target = "/" + stack->layers.front()->default_prim();
-  if (target == "/") from.layer->fail(arc.place, "the file has no default prim; name one: @file@</prim>");
-  add_target(stack, target, from, arc.place, chain, added);
-}
-
-void UsdStage::add_target(const Stack& stack, const std::string& path, const UsdOpinion& from, size_t place,
-                          Chain& chain, std::vector<UsdOpinion>& added) {
-  if (!path.starts_with('/')) {
-    warnings_.add("relative paths of prims are skipped", from.layer->position(place));
-    return;
-  }
-  const std::string site = stack->layers.front()->path().string() + "<" + path + ">";
-  // A prim may name the same prim as its parent does, so one repetition is no cycle.
-  if (std::count(chain.begin(), chain.end(), site) >= kMaxRepetitions || chain.size() >= kMaxChain)
-    from.layer->fail(place, "<" + visible(path) + "> refers to itself");
-  const std::vector<UsdOpinion> found = opinions_at(stack, path);
-  if (found.empty()) from.layer->fail(place, "there is no prim <" + visible(path) + ">");
-  chain.push_back(site);
-  added.insert(added.end(), found.begin(), found.end());
 }
 
 }  // namespace pelage

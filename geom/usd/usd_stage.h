@@ -12,27 +12,16 @@
 
 #include "base/vector.h"
 #include "geom/usd/usd_layer.h"
+#include "geom/usd/usd_prim_index.h"
 #include "geom/usd/usd_warnings.h"
 
 namespace pelage {
-
-/// A layer with its sublayers, strongest first.
-struct UsdLayerStack {
-  std::vector<std::shared_ptr<const UsdLayer>> layers;
-};
-
-/// What one layer states about a composed prim.
-struct UsdOpinion {
-  std::shared_ptr<const UsdLayerStack> stack;
-  const UsdLayer* layer = nullptr;
-  const UsdPrimSpec* spec = nullptr;
-};
 
 /// An attribute with a value.
 struct UsdValue {
   const UsdLayer* layer = nullptr;
   const UsdAttribute* attribute = nullptr;
-  UsdText text;  ///< the default value, or else the earliest time sample
+  UsdText text;  ///< the earliest time sample, or else the default value
 };
 
 /// A prim with everything that its layers, references, payloads and selected variants state about it.
@@ -64,32 +53,32 @@ class UsdStage {
   /// Does the same with a text. `path`: for messages, and for files that the text names.
   UsdStage(const std::filesystem::path& path, std::string_view text, UsdWarnings& warnings);
 
+  UsdStage(const UsdStage&) = delete;
+  UsdStage& operator=(const UsdStage&) = delete;
+
   const UsdLayer& root_layer() const { return *root_->layers.front(); }
   /// Visits the defined prims in the order of the file, without those that are inactive, invisible, or for
   /// purposes other than rendering. Their positions are turned so that y is up. Throws Error (kInput) when a
-  /// file that is needed cannot be read, or when prims refer to themselves or become more than a million.
+  /// file that is needed cannot be read, or when prims refer to themselves, become more than a million, or
+  /// are nested deeper than 512 levels.
   void visit(const std::function<void(const UsdPrim&)>& use);
 
  private:
   using Stack = std::shared_ptr<const UsdLayerStack>;
-  using Chain = std::vector<std::string>;
 
   Stack open(const std::filesystem::path& path);
-  void add_sublayers(const UsdLayer& layer, UsdLayerStack& stack, int depth);
-  void visit_children(const UsdPrim& parent, const Chain& chain,
+  std::shared_ptr<const UsdLayer> open_layer(const std::filesystem::path& path, const std::string& key);
+  void add_sublayers(const UsdLayer& layer, UsdLayerStack& stack, std::vector<std::string>& ancestors);
+  void visit_children(const UsdPrim& parent, const UsdPrimNode& node, int depth,
                       const std::function<void(const UsdPrim&)>& use);
-  void expand(std::vector<UsdOpinion>& opinions, Chain& chain);
-  void add_variants(const UsdOpinion& opinion, const std::vector<UsdOpinion>& all,
-                    std::vector<UsdOpinion>& added);
-  void add_arc(const UsdOpinion& from, const UsdArc& arc, Chain& chain, std::vector<UsdOpinion>& added);
-  void add_target(const Stack& stack, const std::string& path, const UsdOpinion& from, size_t place,
-                  Chain& chain, std::vector<UsdOpinion>& added);
   bool is_shown(const UsdPrim& prim);
 
   UsdWarnings& warnings_;
   Stack root_;
   std::map<std::string, std::weak_ptr<const UsdLayerStack>> open_;
+  std::map<std::string, std::weak_ptr<const UsdLayer>> layers_;
   std::deque<Stack> recent_;
+  UsdPrimComposer composer_;
   size_t prims_ = 0;
   M44f up_;  // turns the up axis of the file to y
 };

@@ -18,13 +18,13 @@ namespace {
 /// Extents are written with fewer digits than points by some programs.
 constexpr float kExtentSlack = 1e-4f;
 
-/// All samples of an attribute: the default value at time NaN, then those with times.
+/// All samples of an attribute: those with times, or else the default value at time NaN.
 std::vector<std::pair<double, UsdText>> all_samples(const UsdValue& value) {
   std::vector<std::pair<double, UsdText>> samples;
-  if (!value.attribute->value.empty()) samples.emplace_back(std::nan(""), value.attribute->value);
   for (const auto& [time, text] : value.attribute->times) {
     if (!text.empty()) samples.emplace_back(time, text);
   }
+  if (samples.empty()) samples.emplace_back(std::nan(""), value.text);
   return samples;
 }
 
@@ -104,18 +104,22 @@ class CurvesValidator {
     const std::string name = prim_.find("primvars:widths") ? "primvars:widths" : "widths";
     const std::optional<UsdValue> value = prim_.find(name);
     if (!value) return problem("it has no widths; hosts choose their own, often 1");
-    const std::vector<float> widths = usd_floats(*value->layer, value->text, 1);
+    if (prim_.interpolation(name).empty()) remark("the interpolation of the widths is not stated");
+    for (const auto& [time, text] : all_samples(*value))
+      check_widths(usd_floats(*value->layer, text, 1), at_time(time));
+  }
+
+  void check_widths(const std::vector<float>& widths, const std::string& when) {
     const size_t count = widths.size();
     if (count != 1 && count != curves_ && count != varying_ && count != vertices_) {
-      problem(fmt::format("it has {} widths; {} curves have {} vertices and {} varying values", count,
+      problem(fmt::format("it has {} widths{}; {} curves have {} vertices and {} varying values", count, when,
                           curves_, vertices_, varying_));
     }
     const auto bad =
         std::count_if(widths.begin(), widths.end(), [](float w) { return !(w >= 0) || std::isinf(w); });
-    if (bad > 0) problem(fmt::format("{} widths are negative or not finite", bad));
+    if (bad > 0) problem(fmt::format("{} widths are negative or not finite{}", bad, when));
     const bool thin = std::all_of(widths.begin(), widths.end(), [](float w) { return w == 0; });
-    if (thin) problem("all widths are 0");
-    if (prim_.interpolation(name).empty()) remark("the interpolation of the widths is not stated");
+    if (thin) problem("all widths are 0" + when);
     for (const float w : widths) {
       if (std::isfinite(w)) widest_ = std::max(widest_, w);
     }
@@ -145,7 +149,7 @@ class CurvesValidator {
             fmt::format("the extent is smaller than the strands with half their width{}", at_time(time)));
       }
     }
-    if (value->attribute->value.empty() && value->attribute->times.size() < boxes_.size())
+    if (!value->attribute->times.empty() && value->attribute->times.size() < boxes_.size())
       problem("the extent has fewer time samples than the points");
   }
 
@@ -169,6 +173,7 @@ UsdFindings validate_usd(const std::filesystem::path& path) {
     findings.meshes += prim.type == "Mesh";
     if (prim.type == "BasisCurves") CurvesValidator(prim, findings).check();
   });
+  if (findings.curves == 0) findings.problems.push_back(visible(path.string()) + ": has no curves");
   for (const std::string& line : warnings.lines()) findings.remarks.push_back(line);
   return findings;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/usd/usd_values.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <type_traits>
@@ -38,12 +39,21 @@ class NumberText {
       case ')':
         if (--depth_ == 0 && in_tuple_ != components_) fail_count(p);
         return p + 1;
+      case '/':
+        return comment(p);
       case '#':
-        while (p < end_ && *p != '\n') ++p;
-        return p;
+        return std::find(p, end_, '\n');
       default:
         return number(p);
     }
+  }
+
+  const char* comment(const char* p) {
+    const std::string_view rest(p, static_cast<size_t>(end_ - p));
+    if (rest.starts_with("//")) return std::find(p, end_, '\n');
+    const size_t end = rest.starts_with("/*") ? rest.find("*/", 2) : std::string_view::npos;
+    if (end == std::string_view::npos) fail(p, "expected a number");
+    return p + end + 2;
   }
 
   const char* number(const char* p) {
@@ -79,7 +89,8 @@ class NumberText {
   }
 
   static bool is_end(char c) {
-    return c == ',' || c == ')' || c == ']' || c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '#';
+    return c == ',' || c == ')' || c == ']' || c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '#' ||
+           c == '/';
   }
   [[noreturn]] void fail(const char* p, const std::string& message) {
     layer_.fail(static_cast<size_t>(p - layer_.text().data()), message);

@@ -127,7 +127,8 @@ class UsdaParser {
       } else if (key == "inherits" || key == "specializes") {
         std::vector<UsdArc> paths;
         arcs(paths);
-        for (UsdArc& arc : paths) spec.inherits.push_back(std::move(arc.path));
+        std::vector<std::string>& to = key == "inherits" ? spec.inherits : spec.specializes;
+        for (UsdArc& arc : paths) to.push_back(std::move(arc.path));
       } else if (key == "variants") {
         selections(spec);
       } else if (key == "active") {
@@ -271,16 +272,6 @@ class UsdaParser {
   size_t items_ = 0;
 };
 
-const UsdAttribute* UsdPrimSpec::find(std::string_view attribute) const {
-  const auto found = attribute_index.find(attribute);
-  return found == attribute_index.end() ? nullptr : &attributes[found->second];
-}
-
-const UsdPrimSpec* UsdPrimSpec::child(std::string_view child_name) const {
-  const auto found = child_index.find(child_name);
-  return found == child_index.end() ? nullptr : &children[found->second];
-}
-
 UsdLayer::UsdLayer(const std::filesystem::path& path) : path_(path), file_(path) {
   text_ = {reinterpret_cast<const char*>(file_.bytes().data()), file_.bytes().size()};
   parse();
@@ -302,18 +293,6 @@ void UsdLayer::parse() {
   if (text_.starts_with(kUtf8Mark)) text_.remove_prefix(kUtf8Mark.size());
   if (!text_.starts_with("#usda ")) fail(0, "expected '#usda 1.0' at the beginning of the file");
   UsdaParser(*this).parse();
-}
-
-SourcePosition UsdLayer::position(size_t place) const {
-  const std::string_view before = text_.substr(0, std::min(place, text_.size()));
-  const auto lines = std::count(before.begin(), before.end(), '\n');
-  const size_t line_begin = before.rfind('\n') + 1;  // npos + 1 = 0
-  return {path_.string(), static_cast<int>(std::min<ptrdiff_t>(lines, 2'000'000'000)) + 1,
-          static_cast<int>(std::min<size_t>(before.size() - line_begin, 2'000'000'000)) + 1};
-}
-
-void UsdLayer::fail(size_t place, const std::string& message) const {
-  throw Error(ErrorKind::kInput, position(place), message);
 }
 
 }  // namespace pelage

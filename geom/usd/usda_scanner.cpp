@@ -19,7 +19,7 @@ bool is_name_start(char c) {
 /// Which characters end a run that skip_brackets() need not look at.
 constexpr auto kSpecial = [] {
   std::array<bool, 256> special{};
-  for (const char c : std::string_view("[](){}\"'@#")) special[static_cast<unsigned char>(c)] = true;
+  for (const char c : std::string_view("[](){}\"'@#/")) special[static_cast<unsigned char>(c)] = true;
   return special;
 }();
 
@@ -32,17 +32,26 @@ char UsdaScanner::next() {
     const char c = text_[at_];
     if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
       ++at_;
-    } else if (c == '#' || text_.substr(at_, 2) == "//") {
+    } else if (c == '#') {
       skip_line();
-    } else if (text_.substr(at_, 2) == "/*") {
-      const size_t end = text_.find("*/", at_ + 2);
-      if (end == std::string_view::npos) fail("the comment has no end");
-      at_ = end + 2;
-    } else {
+    } else if (!skip_comment()) {
       return c;
     }
   }
   return 0;
+}
+
+bool UsdaScanner::skip_comment() {
+  const std::string_view start = text_.substr(at_, 2);
+  if (start == "//") {
+    skip_line();
+    return true;
+  }
+  if (start != "/*") return false;
+  const size_t end = text_.find("*/", at_ + 2);
+  if (end == std::string_view::npos) fail("the comment has no end");
+  at_ = end + 2;
+  return true;
 }
 
 void UsdaScanner::skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
@@ -83,8 +92,11 @@ void UsdaScanner::skip_quoted() {
   const char quote = text_[at_];
   const std::string three(3, quote);
   if (text_.substr(at_, 3) == three) {
-    for (at_ += 3; text_.substr(at_, 3) != three; ++at_) {
-      if (at_ >= text_.size()) fail("the text has no closing quotes");
+    const size_t first = at_;
+    for (at_ += 3;; ++at_) {
+      // A backslash at the end of the file leads beyond it.
+      if (at_ >= text_.size()) layer_.fail(first, "the text has no closing quotes");
+      if (text_.substr(at_, 3) == three) break;
       if (text_[at_] == '\\') ++at_;
     }
     at_ += 3;
@@ -106,8 +118,12 @@ std::string UsdaScanner::quoted() {
   const size_t quotes = at_ - begin >= 6 && text_[begin + 1] == quote && text_[begin + 2] == quote ? 3 : 1;
   std::string result;
   for (size_t i = begin + quotes; i < at_ - quotes; ++i) {
-    if (text_[i] == '\\' && i + 1 < at_ - quotes) ++i;
-    result += text_[i];
+    if (text_[i] != '\\' || i + 1 == at_ - quotes) {
+      result += text_[i];
+      continue;
+    }
+    const char c = text_[++i];
+    result += c == 'n' ? '\n' : c == 't' ? '\t' : c == 'r' ? '\r' : c;
   }
   return result;
 }
@@ -137,7 +153,7 @@ std::string UsdaScanner::path() {
 }
 
 double UsdaScanner::number() {
-  next();
+  if (next() == '+') ++at_;
   double value = 0;
   const char* begin = text_.data() + at_;
   const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
@@ -182,6 +198,9 @@ void UsdaScanner::skip_brackets() {
       case '#':
         skip_line();
         --at_;
+        break;
+      case '/':
+        if (skip_comment()) --at_;
         break;
       default:
         break;

@@ -38,6 +38,8 @@ class UsdaScanner {
 
  private:
   void skip_line();
+  /// Skips a comment that begins with a slash. Returns false if none is here.
+  bool skip_comment();
   void skip_quoted();
   void skip_asset();
   void skip_brackets();

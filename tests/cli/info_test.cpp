@@ -47,6 +47,21 @@ magnets: {window: {type: rectangle}}
   }
 }
 
+TEST(InfoUsd, MistakesOfCurvesAreNotHiddenByMeshes) {
+  const TemporaryFolder folder;
+  Options options;
+  options.input = folder.path() / "s.usda";
+  const std::string mesh =
+      "#usda 1.0\ndef Mesh \"m\" { int[] faceVertexCounts = [3]\n int[] faceVertexIndices = "
+      "[0, 1, 2]\n point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }\n";
+  std::ofstream(options.input) << mesh;
+  EXPECT_EQ(run_info(options), 0);
+  std::ofstream(options.input) << mesh
+                               << "def BasisCurves \"h\" { int[] curveVertexCounts = [7]\n point3f[] points "
+                                  "= [(0, 0, 0)] }\n";
+  EXPECT_THROW(run_info(options), Error);
+}
+
 TEST(InfoScene, OutlinesRib) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "s.rib";

@@ -250,6 +250,9 @@ TEST(UsdCurves, RefusesWhatDoesNotFit) {
       "a.usda:3:30: expected a number");
   EXPECT_EQ(refusal("def BasisCurves \"c\" {\n uniform token basis = \"bsplin\"\n}"),
             "a.usda:2:17: </c>: unknown curves: type 'cubic', basis 'bsplin', wrap 'nonperiodic'");
+  EXPECT_EQ(
+      refusal("def BasisCurves \"c\" {\n int[] curveVertexCounts = [-4]\n point3f[] points = [(0, 0, 0)]\n}"),
+      "a.usda:3:8: a curve has -4 points (curveVertexCounts)");
   EXPECT_EQ(refusal("def Mesh \"c\" {}"), "a.usda: has no curves");
   EXPECT_EQ(refusal(zigzag("linear", "bezier", "nonperiodic", 3, " float[] widths = [1, 2]")),
             "a.usda:8:10: 'widths' has 2 values; 3 vertices, 1 curves or faces need others");

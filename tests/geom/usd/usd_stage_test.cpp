@@ -136,6 +136,8 @@ TEST_F(UsdFiles, RefusesMalformedFilesInOneLine) {
   EXPECT_EQ(refusal("def Mesh \"m\" {"), "a.usda:2:15: expected a name, but the file ends");
   EXPECT_EQ(refusal("def Mesh \"m\" { int[] a = [1, 2 }"), "a.usda:2:32: expected ']', found '}'");
   EXPECT_EQ(refusal("def Mesh \"m {}"), "a.usda:2:10: the text has no closing quote");
+  EXPECT_EQ(refusal("def \"a\" ( \"\"\"abc\\"), "a.usda:2:11: the text has no closing quotes");
+  EXPECT_EQ(refusal("def \"a\" { string s = \"abc\\"), "a.usda:2:22: the text has no closing quote");
   EXPECT_EQ(refusal("dif Mesh"), "a.usda:2:1: expected 'def', 'over' or 'class'");
   EXPECT_EQ(refusal("def \"a\" (references = @b.usda@) {}"), "a.usda:2:23: 'b.usda': there is no such file");
   EXPECT_EQ(refusal("def \"a\" (references = </b>) {}"), "a.usda:2:23: there is no prim </b>");
@@ -153,6 +155,70 @@ TEST_F(UsdFiles, RefusesMalformedFilesInOneLine) {
           "def Mesh \"m\" {\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 9]\n point3f[] "
           "points = [(0, 0, 0)]\n}"),
       "a.usda:4:8: the index 1 is not one of 1 points");
+}
+
+TEST_F(UsdFiles, RefusesEndlessScenes) {
+  std::string deep;
+  for (int i = 0; i < 20; ++i) {
+    deep += fmt::format("{} \"a{}\" {{", i ? "class" : "def", i);
+    for (int level = 0; level < 60; ++level) deep += "def \"d\" {";
+    deep += fmt::format("def \"e\" (references = </a{}>) {{}}", i + 1) + std::string(61, '}') + "\n";
+  }
+  EXPECT_NE(refusal(deep + "class \"a20\" {}").find("prims are nested deeper than 512 levels"),
+            std::string::npos);
+  write("b.usda", "(subLayers = [@a.usda@])");
+  EXPECT_EQ(refusal("(subLayers = [@b.usda@])"), "b.usda:2:15: sublayers contain themselves");
+  std::string wide = "class \"c0\" {}\n";
+  for (int i = 1; i < 20; ++i)
+    wide += fmt::format("class \"c{0}\" (references = [</c{1}>, </c{1}>]) {{}}\n", i, i - 1);
+  EXPECT_NE(refusal(wide).find("refers to too many prims"), std::string::npos);
+}
+
+TEST_F(UsdFiles, StrongerOpinionsComeFirst) {
+  // Each prim gives another x to the first point.
+  const auto prim = [](const std::string& head, int x) {
+    const std::string points =
+        x < 0 ? "" : fmt::format("point3f[] points = [({}, 0, 0), (1, 0, 0), (0, 1, 0)]", x);
+    return head + " { int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n" + points + "}\n";
+  };
+  const std::string a = prim("class Mesh \"A\" (references = </C>)", -1), b = prim("class Mesh \"B\"", 3),
+                    c = prim("class Mesh \"C\"", 7);
+  const auto first = [&](const std::string& arcs) {
+    return mesh(prim("def Mesh \"P\" (" + arcs + ")", -1) + a + b + c).positions.at(0).x;
+  };
+  EXPECT_EQ(first("references = [</A>, </B>]"), 7);
+  EXPECT_EQ(first("references = </C>\n inherits = </B>"), 3);
+  EXPECT_EQ(first("references = </C>\n specializes = </B>"), 7);
+  EXPECT_EQ(first("payload = </B>\n references = </A>"), 7);
+  // What a prim inherits itself is stronger than what a reference of its parent states.
+  const std::string nested =
+      "def \"P\" (references = </R>) { over \"m\" (inherits = </B>) {} }\n"
+      "class \"R\" { " +
+      prim("def Mesh \"m\"", 7) + "}\n";
+  EXPECT_EQ(mesh(nested + b).positions.at(0).x, 3);
+  // A selection may be weaker than its variant set.
+  const std::string chosen = prim("class Mesh \"V\" (variants = { string s = \"two\" })", 5) +
+                             "def \"P\" (references = </V>; variantSets = \"s\") { variantSet \"s\" = { "
+                             "\"one\" {} \"two\" { point3f[] "
+                             "points = [(9, 0, 0), (1, 0, 0), (0, 1, 0)] } } }";
+  EXPECT_EQ(mesh(chosen).positions.at(0).x, 9);
+}
+
+TEST_F(UsdFiles, ManyPrimsMayInheritOneClass) {
+  std::string nested = "class \"c\" {}\n", close = "}";
+  for (int i = 0; i < 6; ++i, close += "}") nested += fmt::format("def \"a{}\" (inherits = </c>) {{ ", i);
+  EXPECT_EQ(mesh(nested + "def Mesh \"m\" {" + kTriangle + close).face_count(), 1u);
+  std::string classes = "def \"p\" (references = [</a0>, </a1>, </a2>, </a3>, </a4>]) {}\n";
+  for (int i = 0; i < 5; ++i) classes += fmt::format("class \"a{}\" (inherits = </c>) {{}}\n", i);
+  EXPECT_EQ(mesh(classes + "class Mesh \"c\" {" + kTriangle + "}").face_count(), 1u);
+}
+
+TEST_F(UsdFiles, TimeSamplesBeatDefaultValues) {
+  const ControlMesh read = mesh(
+      "def Mesh \"m\" { point3f[] points.timeSamples = { 2: [(9, 0, 0), (9, 0, 0), (9, "
+      "0, 0)], 1: [(5, 0, 0), (1, 0, 0), (0, 1, 0)] }" +
+      std::string(kTriangle) + "}");
+  EXPECT_EQ(read.positions.at(0).x, 5);
 }
 
 TEST_F(UsdFiles, NamesBinaryFilesAndTheCommandThatConvertsThem) {
