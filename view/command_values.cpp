@@ -39,8 +39,16 @@ std::vector<double> read_numbers(const nlohmann::json& value, const std::string&
   }
   if (numbers.size() != count || value.size() != count)
     refuse_command(fmt::format("{}: expected {} from {} to {}", name,
-                               count == 1 ? "a number" : fmt::format("{} numbers", count), min, max));
+                               count == 1 ? "a list of 1 number" : fmt::format("{} numbers", count), min,
+                               max));
   return numbers;
+}
+
+double read_number(const nlohmann::json& value, const std::string& name, double min, double max) {
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(number >= min && number <= max))
+    refuse_command(fmt::format("{}: expected a number from {} to {}", name, min, max));
+  return number;
 }
 
 std::string read_choice(const nlohmann::json& object, const std::string& key,

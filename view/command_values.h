@@ -24,6 +24,9 @@ nlohmann::json read_object(const std::string& text, std::span<const std::string>
 std::vector<double> read_numbers(const nlohmann::json& value, const std::string& name, size_t count,
                                  double min, double max);
 
+/// Returns a number from `min` to `max`.
+double read_number(const nlohmann::json& value, const std::string& name, double min, double max);
+
 /// Returns a text that is one of `choices`.
 std::string read_choice(const nlohmann::json& object, const std::string& key,
                         std::span<const std::string> choices);

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -148,12 +149,40 @@ json run_camera(const Context& context, const std::string& body) {
   }
 }
 
+/// Writes lights like values_answer(). This change of the file does not end what clients have changed about
+/// them otherwise.
+json lights_answer(const Context& context, const std::string& action, const std::vector<ValueEdit>& edits) {
+  ViewControl& control = context.state.control();
+  std::set<std::string> names;
+  if (action == "write") {
+    for (const ValueEdit& edit : edits) names.insert(edit.path[1]);
+  }
+  control.begin_writing_lights(names);
+  try {
+    return values_answer(context, action, edits);
+  } catch (...) {
+    control.take_written_lights(names);
+    throw;
+  }
+}
+
+/// Ends changes of values that a mix has written, which they would hide.
+void end_mixed(ViewControl& control, const std::vector<ValueEdit>& edits) {
+  control.change_lights([&](LightChanges& changes) {
+    for (const ValueEdit& edit : edits) {
+      const auto change = changes.find(edit.path[1]);
+      if (change == changes.end() || change->second.values.erase(edit.path[2]) == 0) continue;
+      if (change->second == LightChange()) changes.erase(change);
+    }
+  });
+}
+
 LightMix read_mix(const std::string& light, const json& value) {
   const std::array<std::string, 2> keys{"stops", "tint"};
   check_object(value, "lights." + light, keys);
   LightMix mix{light, 0, Rgb(1)};
   if (const auto stops = value.find("stops"); stops != value.end())
-    mix.stops = read_numbers(json::array({*stops}), "stops", 1, -kMaxStops, kMaxStops)[0];
+    mix.stops = read_number(*stops, "stops", -kMaxStops, kMaxStops);
   if (const auto tint = value.find("tint"); tint != value.end()) {
     const std::vector<double> v = read_numbers(*tint, "tint", 3, 0, kMaxTint);
     mix.tint = Rgb(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
@@ -187,7 +216,9 @@ json run_lights(const Context& context, const std::string& body) {
     throw Error(ErrorKind::kArguments, "the scene has changed since this picture; look at the new one first");
   const std::vector<ValueEdit> edits = light_edits(status.edit->scene, mixes);
   if (edits.empty()) throw Error(ErrorKind::kArguments, "lights: nothing is changed");
-  return values_answer(context, action, edits);
+  json answer = lights_answer(context, action, edits);
+  if (action == "write") end_mixed(context.state.control(), edits);
+  return answer;
 }
 
 /// Reads new values of a light. `type`: of the light.
@@ -206,11 +237,15 @@ std::map<std::string, std::vector<double>> read_light_values(const json& request
   return read;
 }
 
-/// Returns a light of the shown picture by the key `light` of a request.
+/// Returns a light of the shown picture by the key `light` of a request. Throws Error (kArguments) for a
+/// light that options `--set` cannot address.
 ViewLight read_light(const json& request, const ViewStatus& status) {
   std::vector<std::string> names;
   for (const ViewLight& light : status.lights) names.push_back(light.name);
   const std::string name = read_choice(request, "light", names);
+  if (name.find('.') != std::string::npos)
+    refuse_command("light " + quote(name) +
+                   ": a name with a dot cannot be changed here; edit the file by hand");
   return *std::find_if(status.lights.begin(), status.lights.end(),
                        [&](const ViewLight& light) { return light.name == name; });
 }
@@ -275,7 +310,7 @@ json run_rig(const Context& context, const std::string& body) {
   }
   const LightChanges changes = control.lights();
   if (changes.empty()) refuse_command("the lights are those of the scene: nothing to write");
-  json answer = values_answer(context, action, light_change_edits(changes));
+  json answer = lights_answer(context, action, light_change_edits(changes));
   if (action == "write") control.end_lights(changes);
   return answer;
 }

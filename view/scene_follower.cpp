@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace pelage {
@@ -116,16 +119,27 @@ SceneDescription SceneFollower::load_shown() {
 }
 
 /// Returns the changes of lights that still apply: not those of lights that the scene file no longer has, or
-/// that were changed in the file since.
+/// that were changed in the file since by others than commands of this view.
 LightChanges SceneFollower::shown_lights(const SceneDescription& scene) {
   SceneParts own;
   for (const auto& light : scene.lights.items) {
     const std::string part = "lights." + light.name;
     if (const auto found = scene.parts.find(part); found != scene.parts.end()) own.insert(*found);
   }
+  constexpr size_t kPrefix = std::string_view("lights.").size();
+  std::set<std::string> differing;  // names of the lights that the file has changed
+  for (const SceneParts& parts : {own, own_lights_}) {
+    for (const auto& [part, hash] : parts) {
+      const auto now = own.find(part), then = own_lights_.find(part);
+      if (now == own.end() || then == own_lights_.end() || now->second != then->second)
+        differing.insert(part.substr(kPrefix));
+    }
+  }
+  const std::set<std::string> written = state_.control().take_written_lights(differing);
   const auto is_old = [&](const std::string& name, const LightChange& change) {
     const std::string part = "lights." + name;
     const auto now = own.find(part), then = own_lights_.find(part);
+    if (written.contains(name) && now != own.end()) return false;
     if (!change.added_type.empty()) return now != own.end();
     return now == own.end() || (then != own_lights_.end() && then->second != now->second);
   };

@@ -6,6 +6,8 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -65,14 +67,34 @@ class ViewControl {
     change(lights_);
     if (changed_) changed_();
   }
-  /// Ends changes, unless newer ones have replaced them.
+  /// Ends changes that the scene file has now, unless newer ones have replaced them. A newer change of an
+  /// added light becomes one of a light of the scene.
   void end_lights(const LightChanges& ended) {
     change_lights([&](LightChanges& lights) {
       for (const auto& [name, change] : ended) {
-        if (const auto found = lights.find(name); found != lights.end() && found->second == change)
+        const auto found = lights.find(name);
+        if (found == lights.end()) continue;
+        if (found->second == change)
           lights.erase(found);
+        else if (found->second.added_type == change.added_type)
+          found->second.added_type.clear();
       }
     });
+  }
+  /// Announces that a command is going to write lights into the scene file. This change of the file does not
+  /// end their changes.
+  void begin_writing_lights(const std::set<std::string>& names) {
+    const std::lock_guard lock(mutex_);
+    writing_lights_.insert(names.begin(), names.end());
+  }
+  /// Returns those of some lights that were announced since the last call that named them.
+  std::set<std::string> take_written_lights(const std::set<std::string>& names) {
+    const std::lock_guard lock(mutex_);
+    std::set<std::string> written;
+    for (const std::string& name : names) {
+      if (writing_lights_.erase(name) > 0) written.insert(name);
+    }
+    return written;
   }
 
   /// Ends the choice of a frame, unless a newer choice has replaced it.
@@ -117,6 +139,7 @@ class ViewControl {
   std::optional<CameraMove> camera_;
   std::optional<int> frame_;
   LightChanges lights_;
+  std::set<std::string> writing_lights_;
   bool dual_ = false;
   std::optional<PixelBox> region_;
   std::atomic<uint32_t> region_version_{0};

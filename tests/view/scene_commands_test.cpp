@@ -133,13 +133,18 @@ TEST_F(SceneCommandsTest, ManyBouncesArePreviewed) {
 }
 
 TEST_F(SceneCommandsTest, WrongChangesOfLightsAreRefused) {
-  state_.update([](ViewStatus& status) { status.lights = {{"key", "sphere", {}, false}}; });
+  state_.update([](ViewStatus& status) {
+    status.lights = {{"key", "sphere", {}, false}, {"key.1", "sphere", {}, false}};
+  });
   const auto change = [](const std::string& light, const std::string& values) {
     return R"({"action": "change", "light": ")" + light + R"(", "values": )" + values + "}";
   };
   expect_refused("rig.json", change("kye", "{}"), "did you mean 'key'?");
   expect_refused("rig.json", change("key", R"({"size": [1, 1]})"), "unknown key 'size'");
-  expect_refused("rig.json", change("key", R"({"radius": [0]})"), "radius: expected a number from");
+  expect_refused("rig.json", change("key", R"({"radius": [0]})"), "radius: expected a list of 1 number from");
+  expect_refused("rig.json", change("key", R"({"radius": 0.5})"), "radius: expected a list of 1 number");
+  expect_refused("rig.json", change("key.1", R"({"position": [1, 2, 3]})"), "a name with a dot");
+  expect_refused("rig.json", R"({"action": "remove", "light": "key.1"})", "a name with a dot");
   expect_refused("rig.json", change("key", R"({"position": [1, 2]})"), "position: expected 3 numbers");
   expect_refused("rig.json", change("key", R"({"position": [1, 2, 1e99]})"), "position: expected 3 numbers");
   expect_refused("rig.json", R"({"action": "add", "type": "sphre"})", "did you mean 'sphere'?");
@@ -258,7 +263,7 @@ TEST_F(SceneCommandsTest, WrongParametersAreRefused) {
   expect_refused("lights.json", R"({"action": "text", "edit": 0, "lights": {"key": {"stop": 1}}})",
                  "did you mean 'stops'?");
   expect_refused("lights.json", R"({"action": "text", "edit": 0, "lights": {"key": {"stops": 1e9}}})",
-                 "stops: expected");
+                 "stops: expected a number");
   expect_refused("lights.json", R"({"action": "text", "edit": 0, "lights": {"key": {"tint": [1, -1, 1]}}})",
                  "tint: expected");
   for (const char* box :
