@@ -3,6 +3,8 @@
 
 #include <variant>
 
+#include "geom/usd/usd_files.h"
+
 namespace pelage {
 
 void add_groom_files(const GroomParams& groom, std::vector<std::filesystem::path>& files) {
@@ -44,7 +46,7 @@ std::vector<std::filesystem::path> asset_files(const SceneDescription& scene) {
         },
         light.value);
   }
-  return files;
+  return with_usd_files(files);
 }
 
 }  // namespace pelage

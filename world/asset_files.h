@@ -9,7 +9,8 @@
 namespace pelage {
 
 /// Returns the paths of all files that a scene names, except for poses: meshes, strands, guides, maps and
-/// environments. Commands use the list to reject output files that would overwrite these files.
+/// environments, with the files that those of USD name. Commands use the list to reject output files that
+/// would overwrite these files.
 std::vector<std::filesystem::path> asset_files(const SceneDescription& scene);
 
 /// Appends the files that a groom names: of strands, maps and guides.

@@ -15,6 +15,7 @@
 #include "base/nearest_name.h"
 #include "geom/io/host_geometry.h"
 #include "geom/io/mesh_file.h"
+#include "geom/usd/usd_files.h"
 #include "groom/strands/skin_fields.h"
 #include "render/fibre/fibre_material.h"
 #include "world/asset_files.h"
@@ -38,7 +39,7 @@ void add_part(const SceneDescription& scene, const std::string& path, ContentHas
 }
 
 void add_files(const std::vector<std::filesystem::path>& files, ContentHasher& hasher) {
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& file : with_usd_files(files)) {
     const FileStamp stamp = file_stamp(file);
     hasher.add(file.string()).add(stamp.inode).add(stamp.size).add(stamp.changed_ns);
   }

@@ -5,14 +5,20 @@
 #include "base/file.h"
 #include "base/program_identity.h"
 #include "geom/limit_surface.h"
+#include "geom/usd/usd_files.h"
 #include "image/field_skin.h"
 
 namespace pelage {
 namespace {
 
+/// Of a file of USD, also the contents of the files that it names.
 std::string hash_of_file(const std::filesystem::path& file) {
   try {
-    return to_string(file_hash(file));
+    const std::vector<std::filesystem::path> files = with_usd_files({file});
+    if (files.size() == 1) return to_string(file_hash(file));
+    ContentHasher hasher;
+    for (const std::filesystem::path& one : files) hasher.add(to_string(file_hash(one)));
+    return to_string(hasher.digest());
   } catch (const Error&) {
     return "missing";
   }

@@ -2,7 +2,6 @@
 #include "groom/coat/imported.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -15,16 +14,6 @@
 #include "groom/strands/named_strands.h"
 
 namespace pelage {
-
-namespace {
-
-/// What still fits the memory limit; the largest number if there is none.
-int64_t free_bytes(const MemoryLedger& ledger) {
-  if (ledger.limit() == 0) return std::numeric_limits<int64_t>::max();
-  return std::max<int64_t>(0, ledger.limit() - ledger.budgeted());
-}
-
-}  // namespace
 
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)

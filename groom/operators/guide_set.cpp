@@ -121,7 +121,9 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
       reserve(job.ledger, MemoryTag::kGrooms,
               missing ? 0 : kOfFile * (source.mirror ? 2 : 1) * static_cast<int64_t>(file_bytes),
               "reading the guides of " + source.file.path.string() + " for " + context.owner);
-  const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
+  StrandReadOptions options{source.basis, 1.0f};
+  options.max_bytes = free_bytes(job.ledger);
+  const StrandFile file = read_named_strands(source.file, options);
   const size_t count = file.strands.strand_count();
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");

@@ -17,8 +17,10 @@
 namespace pelage {
 namespace {
 
-std::vector<std::vector<V3f>> lines_of(const AssetPath& file) {
-  const Strands strands = read_named_strands(file, {}).strands;
+std::vector<std::vector<V3f>> lines_of(const AssetPath& file, const Job& job) {
+  StrandReadOptions options;
+  options.max_bytes = free_bytes(job.ledger);
+  const Strands strands = read_named_strands(file, options).strands;
   std::vector<std::vector<V3f>> lines(strands.strand_count());
   const std::span<const float> points = strands.points(0);
   size_t at = 0;
@@ -89,7 +91,7 @@ void Parting::prepare(const PrepareContext& context) {
   if (params_.points.empty() && params_.file.empty()) refuse("needs `points` or `file`");
   if (!params_.points.empty() && !params_.file.empty()) refuse("takes `points` or `file`, not both");
   std::vector<std::vector<V3f>> lines{params_.points};
-  if (!params_.file.empty()) lines = lines_of(params_.file);
+  if (!params_.file.empty()) lines = lines_of(params_.file, context.job);
   const SkinBinding binding(*context.rest, params_.file.empty() ? "a part" : params_.file.path, context.job);
   if (binding.empty()) refuse("needs a skin with at least one face that is not a hole");
   lines_ = std::make_shared<const PartLines>(lines, *context.rest, binding, context.job);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/strands/named_strands.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,11 @@ void rethrow_at_asset(const Error& error, const AssetPath& file) {
     }
   }
   throw Error(error.kind(), std::move(problems));
+}
+
+int64_t free_bytes(const MemoryLedger& ledger) {
+  if (ledger.limit() == 0) return std::numeric_limits<int64_t>::max();
+  return std::max<int64_t>(0, ledger.limit() - ledger.budgeted());
 }
 
 StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options) {

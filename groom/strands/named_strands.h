@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/ledger.h"
 #include "base/value_readers.h"
 #include "geom/io/strand_file.h"
 
@@ -22,6 +23,9 @@ auto with_errors_at_asset(const AssetPath& file, const Work& work) {
     rethrow_at_asset(error, file);
   }
 }
+
+/// Returns how many bytes still fit the memory limit; the largest number if there is none.
+int64_t free_bytes(const MemoryLedger& ledger);
 
 /// Reads the strands of a file that a scene names, like read_strands(), with errors as in
 /// with_errors_at_asset().

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "geom/usd/usd_curves_file.h"
+#include "geom/usd/usd_files.h"
 #include "geom/usd/usd_mesh_file.h"
 #include "geom/usd/usd_stage.h"
 #include "geom/usd/usd_validation.h"
@@ -92,6 +93,23 @@ TEST(UsdLimits, NumbersMayHaveSignsAndTextsEscapes) {
   const UsdLayer layer("a.usda", "#usda 1.0\ndef \"a\" { string s = \"a\\n\\\"\\\\n\" }");
   const UsdAttribute* s = layer.root().child("a")->find("s");
   EXPECT_EQ(usd_texts(layer, s->value), std::vector<std::string>{"a\n\"\\n"});
+}
+
+TEST(UsdLimits, FilesOfASceneAreKnown) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    write_file(folder.path() / name, "#usda 1.0\n" + text);
+  };
+  write("a.usda",
+        "(subLayers = [@./b.usda@])\ndef \"p\" (references = [@none.usda@</x>]) { variantSet \"v\" = { "
+        "\"x\" { def \"q\" (payload = @c.usda@) {} } } }");
+  write("b.usda", "def \"p\" (references = @a.usda@</p>) {}");
+  write("c.usda", "");
+  const std::filesystem::path other = folder.path() / "d.obj";
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : with_usd_files({folder.path() / "a.usda", other}))
+    files.push_back(file.lexically_relative(folder.path()));
+  EXPECT_EQ(files, (std::vector<std::filesystem::path>{"a.usda", "b.usda", "c.usda", "d.obj"}));
 }
 
 TEST(UsdLimits, ValidationLooksAtAllSamplesAndForCurves) {

@@ -44,6 +44,20 @@ std::pair<std::string, std::string> two_values(const KeyInfo& key, const std::st
   return {type.substr(0, bar), type.substr(bar + 3, type.find(" | ", bar + 3) - bar - 3)};
 }
 
+TEST_F(GroomIdentityTest, FilesThatAFileOfUsdNamesCount) {
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder_.path() / name) << "#usda 1.0\n" << text;
+  };
+  write("main.usda", "def \"a\" (payload = @leaf.usda@</h>) {}");
+  write("leaf.usda", "def BasisCurves \"h\" {}");
+  GroomParams params;
+  params.strands_file.path = folder_.path() / "main.usda";
+  const ContentHash before = hash_of(params);
+  EXPECT_EQ(hash_of(params), before);
+  write("leaf.usda", "def BasisCurves \"h\" { int[] curveVertexCounts = [3] }");
+  EXPECT_NE(hash_of(params), before);
+}
+
 TEST_F(GroomIdentityTest, EveryParameterOfEveryOperatorCounts) {
   const std::string file = (folder_.path() / "a.hair").string(), other = (folder_.path() / "b.hair").string();
   std::ofstream(file) << "one";
