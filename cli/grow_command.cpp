@@ -263,14 +263,16 @@ int run_grow(const Options& options) {
   if (!options.output.empty() && !is_strand_file(options.output)) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as " + kStrandEndings);
   }
+  // A file name with a place for the frame number asks for every frame.
+  std::vector<int> frames = scene.frames.frames;
+  if (!has_frame_pattern(options.output)) frames.resize(1);
   check_stats(options, scene.files);
   if (!options.output.empty()) {
     check_stats(options, {options.output});
-    const std::string one = frame_file_name(options.output, scene.frames.frames.front());
-    check_replaces_none("-o", one, scene.files);
-    prepare_output(one);
+    for (const int frame : frames)
+      check_replaces_none("-o", frame_file_name(options.output, frame), scene.files);
+    prepare_output(frame_file_name(options.output, frames.front()));
   }
-  const int first = scene.frames.frames.front();
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // Opening, filling and growing caches is a separate stage.
   double cache_s = 0;
@@ -296,9 +298,6 @@ int run_grow(const Options& options) {
     require_kept(*assets, options);
     return 0;
   }
-  // A file name with a place for the frame number asks for every frame.
-  const std::vector<int> frames =
-      has_frame_pattern(options.output) ? scene.frames.frames : std::vector{first};
   for (const int frame : frames) {
     if (!grow_frame(scene, *assets, options, frame, run)) return SignalGuard::exit_code();
   }

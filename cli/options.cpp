@@ -108,6 +108,7 @@ void add_simulate(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* simulate = app.add_subcommand(
       "simulate", "Simulate the motion of coats with `dynamics` and store it for the other commands");
   add_scene_flags(*simulate, options, texts);
+  add_rib_use_flags(*simulate, options.rib_in);
   add_script_flag(*simulate, options);
   simulate
       ->add_option("--frames", texts.frames,
@@ -219,6 +220,8 @@ void add_export(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* command =
       app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4 or Mitsuba 3");
   add_scene_flags(*command, options, texts);
+  add_rib_use_flags(*command, options.rib_in);
+  add_script_flag(*command, options);
   add_export_flags(*command, options.output, texts.export_format);
   command->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_run_flags(*command, options, texts);
@@ -250,7 +253,7 @@ void add_new(CLI::App& app, Options& options) {
     presets += fmt::format("{}{} ({})", presets.empty() ? "" : ", ", look.name, look.help);
   CLI::App* command = app.add_subcommand(
       "new", "Write a first scene for a mesh: a coat, lights and a camera that suit its size and axes");
-  command->add_option("MESH", options.input, "OBJ file of the animal")->required();
+  command->add_option("MESH", options.input, "OBJ or USD (.usda) file of the animal")->required();
   command->add_option("-o,--output", options.output, "Scene file to write")
       ->required()
       ->type_name("FUR.yaml");

@@ -122,6 +122,8 @@ std::vector<ExportedLight> exported_lights(const SceneDescription& scene, double
   std::vector<ExportedLight> lights;
   for (const auto& [name, position, params] : scene.lights.items) {
     lights.push_back(std::visit(ExportedLightOf{name, frame, factor}, params));
+    if (lights.back().kind == Kind::kEnvironment && !lights.back().visible)
+      notes.add("light '" + name + "'", "the camera sees it");
     const auto& emission =
         std::visit([](const LightEmission& p) -> const LightEmission& { return p; }, params);
     if (emission.illuminates || emission.shadowed_by)

@@ -55,8 +55,11 @@ size_t MaterialTable::add(const std::string& part, const std::string& material, 
                           const Rgb& color) {
   const MaterialParams& params = params_of(material);
   ExportedMaterial added;
-  const int twin = ++names_[material];
-  added.name = twin > 1 ? fmt::format("{}_{}", material, twin) : material;
+  added.name = material;
+  for (int twin = 2; !names_.insert(added.name).second; ++twin) {
+    do added.name = fmt::format("{}_{}", material, twin);
+    while (source_.scene.materials.find(added.name) && ++twin);
+  }
   added.color = color * tint;
   added.params = &params;
   if (const FibreParams* fibre = fibre_params(params)) {

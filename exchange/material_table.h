@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ class MaterialTable {
   ExportNotes& notes_;
   std::vector<ExportedMaterial> all_;
   std::map<std::string, size_t> known_;  // by part, material and tint
-  std::map<std::string, int> names_;
+  std::set<std::string> names_;
 };
 
 }  // namespace pelage

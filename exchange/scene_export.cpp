@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/version.h"
+#include "exchange/export_folder.h"
 #include "exchange/export_notes.h"
 #include "exchange/mitsuba/mitsuba_scene.h"
 #include "exchange/pbrt/pbrt_scene.h"
@@ -38,25 +39,41 @@ std::string readme_text(const ExportSource& source, ExportFormat format,
   return text;
 }
 
+/// Names of the files to open, to refuse them before long work.
+std::vector<std::string> main_files(ExportFormat format, const ExportSource& source) {
+  const std::string stem = source.path.stem().string();
+  if (format == ExportFormat::kUsd) return {stem + ".usda"};
+  const char* ending = format == ExportFormat::kPbrt ? ".pbrt" : ".xml";
+  const std::vector<int>& frames = source.scene.frames.frames;
+  if (frames.size() == 1) return {stem + ending};
+  std::vector<std::string> names;
+  for (const int frame : frames) names.push_back(fmt::format("{}.{:04}{}", stem, frame, ending));
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> export_scene(const std::filesystem::path& folder, ExportFormat format,
                                                 const ExportSource& source, const Job& job) {
+  ExportFolder out(folder, source.scene.files);
+  for (const std::string& file : main_files(format, source)) out.check(file);
   ExportNotes notes;
   note_scene(source.scene, notes);
   std::vector<std::filesystem::path> files;
   switch (format) {
     case ExportFormat::kUsd:
-      files = write_usd_scene(folder, source, notes, job);
+      files = write_usd_scene(out.working(), source, notes, job);
       break;
     case ExportFormat::kPbrt:
-      files = write_pbrt_scene(folder, source, notes, job);
+      files = write_pbrt_scene(out.working(), source, notes, job);
       break;
     case ExportFormat::kMitsuba:
-      files = write_mitsuba_scene(folder, source, notes, job);
+      files = write_mitsuba_scene(out.working(), source, notes, job);
       break;
   }
-  write_file(folder / "README.md", readme_text(source, format, files, notes), Links::kReplace);
+  write_file(out.working() / "README.md", readme_text(source, format, files, notes), Links::kReplace);
+  out.commit();
+  for (std::filesystem::path& file : files) file = folder / file.filename();
   return files;
 }
 

@@ -27,11 +27,13 @@ struct ExportSource {
 };
 
 /// Writes the frames of a scene for other programs into a folder (docs/EXCHANGE.md), with a README.md of what
-/// the format cannot express. Every file appears completely or not at all, and files that are named by others
+/// the format cannot express. The files appear when all of them are made, and files that are named by others
 /// appear before these. Files of the folder with other names stay. Returns the files to open.
 ///
-/// Throws Error: kInput for missing or damaged poses, kFailed if a file cannot be written, kMemory if a leaf
-/// does not fit the memory limit, kStopped when the job is stopped.
+/// Throws Error: kArguments before anything is replaced if a file of the scene would be, or a file in a
+/// folder without a README.md of an earlier export (ExportFolder); kInput for missing or damaged poses,
+/// kFailed if a file cannot be written, kMemory if a leaf does not fit the memory limit, kStopped when the
+/// job is stopped.
 std::vector<std::filesystem::path> export_scene(const std::filesystem::path& folder, ExportFormat format,
                                                 const ExportSource& source, const Job& job);
 

@@ -101,6 +101,7 @@ std::string simulate_line(const SceneDescription& scene, double frame) {
         });
     if (!is_of_picture) command.insert(command.end(), {"--set", setting});
   }
+  if (scene.scripts) command.emplace_back("--allow-scripts");
   const std::vector<int>& all = scene.frames.frames;
   const bool is_of_scene = std::find(all.begin(), all.end(), frame) != all.end();
   command.insert(command.end(),

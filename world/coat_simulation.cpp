@@ -35,12 +35,14 @@ Imath::Quatd turn_of(const Frame& frame) {
   return q.normalize();
 }
 
-/// The triangles of a skin, fine enough for collisions.
+/// The triangles of a skin, fine enough for collisions. They are the same for all poses, even for those in
+/// which edges have no length, because collisions follow a triangle from one moment to the next.
 SkinMesh triangles_of(const LimitSurface& skin, const Job& job) {
   View everywhere;
-  everywhere.focal_pixels = 1e12f;  // so that every edge exceeds the max rate
+  everywhere.focal_pixels = 1e12f;
   TessellationOptions options;
   options.max_rate = skin.topology().is_flat() ? 1 : 2;
+  options.edge_pixels = 0;  // no edge is short enough for less than the max rate, even one of no length
   return tessellate(std::span(&skin, 1), everywhere, options, job);
 }
 
@@ -59,6 +61,8 @@ struct PosedTriangles {
 using Shapes = std::vector<std::shared_ptr<const PosedTriangles>>;
 
 OtherSkin other_skin(const PosedTriangles& before, const PosedTriangles& now) {
+  PELAGE_CHECK(before.mesh.vertex_count() == now.mesh.vertex_count());
+  PELAGE_CHECK(before.mesh.triangle_count() == now.mesh.triangle_count());
   OtherSkin skin{&before.mesh, &now.mesh, &*before.tree, &*now.tree, before.box, now.box, 0};
   for (size_t v = 0; v < now.mesh.vertex_count(); ++v) {
     const V3d moved = V3d(now.mesh.position(v)) - V3d(before.mesh.position(v));
@@ -120,13 +124,11 @@ class CoatSimulation {
     return LimitSurface(pose.topology, pose.shutter.cages.front());
   }
 
-  /// The skins that guides must not pass, without their own.
+  /// The skins that guides must not pass, without their own. Those without triangles have no tree.
   Shapes other_shapes(double time) const {
     Shapes shapes;
-    for (const auto& [character, part] : coat_.colliders) {
+    for (const auto& [character, part] : coat_.colliders)
       shapes.push_back(std::make_shared<PosedTriangles>(posed_skin(character, part, time), job_));
-      if (!shapes.back()->tree) shapes.pop_back();
-    }
     return shapes;
   }
 
@@ -135,8 +137,10 @@ class CoatSimulation {
     if (coat_.colliders.empty()) return;
     at.before = std::move(others_);
     at.others = others_ = other_shapes(time);
-    for (size_t i = 0; i < at.others.size(); ++i)
-      at.moment.others.push_back(other_skin(*at.before[i], *at.others[i]));
+    for (size_t i = 0; i < at.others.size(); ++i) {
+      if (at.before[i]->tree && at.others[i]->tree)
+        at.moment.others.push_back(other_skin(*at.before[i], *at.others[i]));
+    }
   }
 
   std::unique_ptr<PosedMoment> posed(double time) const {

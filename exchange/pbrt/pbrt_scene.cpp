@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "exchange/still_scene.h"
+#include "geom/usd/usd_writer.h"
 
 namespace pelage {
 namespace {
@@ -17,6 +18,20 @@ std::string pbrt_matrix(const M44f& m) {
   std::string text = "[";
   for (int i = 0; i < 16; ++i) text += fmt::format(" {}", m[i / 4][i % 4]);
   return text + " ]";
+}
+
+/// A text in quotes, or behind `#`: with the escapes of pbrt, and _ for other control characters.
+std::string pbrt_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '_' : c;
+    }
+  }
+  return out;
 }
 
 /// Whether the radii at the ends of all segments are linear along the strand, within a hundredth of the
@@ -87,22 +102,24 @@ class PbrtFrame {
     write_camera(frame);
     text_.add("WorldBegin\n\n");
     for (const ExportedLight& light : scene_.lights) write_light(light);
-    for (const ExportedMaterial& material : scene_.materials) write_material(material);
+    UsdNames names;
+    for (const ExportedMaterial& material : scene_.materials) {
+      material_names_.push_back(names.unique(material.name));
+      write_material(material);
+    }
     for (const StillScene::Part& skin : scene_.skins) {
-      text_.add("\n# skin {}\nNamedMaterial \"{}\"\n", skin.name, material_name(skin));
+      text_.add("\n# skin {}\nNamedMaterial \"{}\"\n", pbrt_text(skin.name), material_name(skin));
       text_.add("Shape \"plymesh\" \"string filename\" \"{}\"\n", skin.files[0]);
     }
     for (const StillScene::Part& coat : scene_.coats) {
-      text_.add("\n# coat {}\nNamedMaterial \"{}\"\n", coat.name, material_name(coat));
+      text_.add("\n# coat {}\nNamedMaterial \"{}\"\n", pbrt_text(coat.name), material_name(coat));
       for (const std::string& file : coat.files) text_.add("Include \"{}\"\n", file);
     }
     text_.commit();
   }
 
  private:
-  const std::string& material_name(const StillScene::Part& part) const {
-    return scene_.materials[part.material].name;
-  }
+  std::string material_name(const StillScene::Part& part) const { return material_names_[part.material]; }
   static std::string rgb(const Rgb& c) { return fmt::format("[ {} {} {} ]", c.x, c.y, c.z); }
 
   void write_options(const std::string& stem) {
@@ -110,7 +127,7 @@ class PbrtFrame {
     text_.add(
         "Film \"rgb\" \"integer xresolution\" [ {} ] \"integer yresolution\" [ {} ] \"string filename\" "
         "\"{}.exr\"\n",
-        image.width, image.height, stem);
+        image.width, image.height, pbrt_text(stem));
     text_.add("Sampler \"zsobol\" \"integer pixelsamples\" [ {} ]\n", description_.render.samples);
     text_.add("Integrator \"path\" \"integer maxdepth\" [ {} ]\n\n", description_.render.bounces + 1);
   }
@@ -138,7 +155,7 @@ class PbrtFrame {
   void write_light(const ExportedLight& light) {
     const std::string subject = "light '" + light.name + "'";
     const V3f &p = light.position, to = p + light.z;
-    text_.add("# light {}\n", light.name);
+    text_.add("# light {}\n", pbrt_text(light.name));
     if (!light.shadows) notes_.add(subject, "it casts shadows");
     if (light.kind == Kind::kSun) {
       const float sine = std::sin(light.angle * kPbrtPi / 360);
@@ -174,7 +191,7 @@ class PbrtFrame {
     const M44f turn(0, 0, 1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1);
     text_.add("AttributeBegin\nTransform {}\n", pbrt_matrix(turn * light.rotation));
     text_.add("LightSource \"infinite\" \"string filename\" \"{}\" \"float scale\" [ {} ]\nAttributeEnd\n",
-              made, luminance(light.radiance));
+              pbrt_text(made), luminance(light.radiance));
     notes_.add("light '" + light.name + "'",
                fmt::format("make its image first: `imgtool makeequiarea --outfile {} {}`", made,
                            std::filesystem::absolute(image).string()));
@@ -209,7 +226,7 @@ class PbrtFrame {
   }
 
   void write_material(const ExportedMaterial& material) {
-    text_.add("MakeNamedMaterial \"{}\" ", material.name);
+    text_.add("MakeNamedMaterial \"{}\" ", material_names_.back());
     if (material.hair) {
       const HairModel& hair = *material.hair;
       text_.add("\"string type\" \"hair\" \"rgb sigma_a\" {} \"float eta\" [ {} ] \"float beta_m\" [ {} ]",
@@ -231,6 +248,7 @@ class PbrtFrame {
   const StillScene& scene_;
   const SceneDescription& description_;
   ExportNotes& notes_;
+  std::vector<std::string> material_names_;  // of scene_.materials, without characters that need quotes
 };
 
 }  // namespace

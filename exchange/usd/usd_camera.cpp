@@ -16,6 +16,9 @@ struct UsdCameraValues {
 /// A camera without a lens has no size: any focal length gives the same picture.
 constexpr float kAnyFocalLength = 50;
 
+/// Nothing of a scene is nearer or farther, in metres. Without a range, USD has 1 to 1,000,000 units.
+constexpr double kNearest = 0.001, kFarthest = 10'000;
+
 UsdCameraValues values_at(const UsdCamera& camera, const CameraParams& params, double time) {
   const float aspect = static_cast<float>(camera.width) / static_cast<float>(camera.height);
   const Camera at(params, time, camera.width, camera.height);
@@ -88,6 +91,9 @@ void write_usd_camera(UsdWriter& usd, const std::string& name, const UsdCamera& 
   CameraPrim prim(usd, camera);
   usd.line(
       fmt::format("token projection = \"{}\"", params.is_orthographic() ? "orthographic" : "perspective"));
+  usd.line(fmt::format("float2 clippingRange = ({}, {})",
+                       static_cast<float>(kNearest / camera.meters_per_unit),
+                       static_cast<float>(kFarthest / camera.meters_per_unit)));
   prim.number("float focalLength", &UsdCameraValues::focal_length);
   prim.number("float horizontalAperture", &UsdCameraValues::width);
   prim.number("float verticalAperture", &UsdCameraValues::height);

@@ -27,6 +27,8 @@ class UsdSceneWriter {
 
   std::filesystem::path write() {
     write_parts();
+    for (const ExportedMaterial& material : materials_.all())
+      material_prims_.push_back(material_names_.unique(material.name));
     const std::filesystem::path path = folder_ / (source_.path.stem().string() + ".usda");
     const auto [first, last] =
         std::minmax_element(source_.scene.frames.frames.begin(), source_.scene.frames.frames.end());
@@ -34,14 +36,20 @@ class UsdSceneWriter {
                                     "{}\nendTimeCode = {}\n{}",
                                     source_.scene.units.fps, *first, *last, units_));
     usd.open("def Xform \"scene\"");
+    UsdNames children;
+    for (const char* taken : {"camera", "lights", "materials"}) children.unique(taken);
     for (const auto& [character, parts] : characters_) {
-      usd.open(fmt::format("def Xform {} (kind = \"component\")", usd_string(usd_name(character))));
+      usd.open(fmt::format("def Xform {} (kind = \"component\")", usd_string(children.unique(character))));
       for (const Part& part : parts) write_part(usd, part);
       usd.close();
     }
     write_materials(usd);
     write_lights(usd);
-    UsdCamera camera{source_.scene.image.width, source_.scene.image.height, source_.scene.frames.frames, {}};
+    UsdCamera camera{source_.scene.image.width,
+                     source_.scene.image.height,
+                     source_.scene.frames.frames,
+                     {},
+                     source_.scene.units.meters_per_unit};
     for (size_t i = 0; i < frames_.count(); ++i) camera.params.push_back(frames_.parts(i).camera);
     write_usd_camera(usd, "camera", camera);
     usd.close();
@@ -112,15 +120,14 @@ class UsdSceneWriter {
                          usd_string(part.name), part.extent ? ", \"GeomModelAPI\"" : "", arc,
                          usd_asset(part.file)));
     if (part.extent) usd.box("float3[] extentsHint = ", *part.extent);
-    usd.line(fmt::format("rel material:binding = <{}/{}>", kMaterialsPath,
-                         usd_name(materials_.all()[part.material].name)));
+    usd.line(fmt::format("rel material:binding = <{}/{}>", kMaterialsPath, material_prims_[part.material]));
     usd.close();
   }
 
   void write_materials(UsdWriter& usd) {
     usd.open("def Scope \"materials\"");
-    for (const ExportedMaterial& material : materials_.all())
-      write_usd_material(usd, kMaterialsPath, usd_name(material.name), material);
+    for (size_t i = 0; i < material_prims_.size(); ++i)
+      write_usd_material(usd, kMaterialsPath, material_prims_[i], materials_.all()[i]);
     usd.close();
   }
 
@@ -142,7 +149,8 @@ class UsdSceneWriter {
   const PosedFrames frames_;
   MaterialTable materials_;
   const std::string units_;
-  UsdNames files_;
+  UsdNames files_, material_names_;
+  std::vector<std::string> material_prims_;  // names in the stage, of materials_.all()
   std::map<std::string, UsdNames> prim_names_;
   std::vector<std::pair<std::string, std::vector<Part>>> characters_;
 };

@@ -25,6 +25,7 @@ struct UsdCamera {
   int width = 1, height = 1;  ///< of the picture, in pixels
   std::vector<int> frames;
   std::vector<CameraParams> params;  ///< one per frame
+  double meters_per_unit = 1;
 };
 void write_usd_camera(UsdWriter& usd, const std::string& name, const UsdCamera& camera);
 

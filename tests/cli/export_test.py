@@ -57,6 +57,13 @@ class ExportTest(ProgramTest):
             self.assertTrue((folder / stage).exists())
             self.assertIn(stage, (folder / "README.md").read_text())
 
+    def test_inputs_stay_and_scripts_can_be_allowed(self):
+        (self.path / "README.md").write_text("mine")
+        said = self.run_pelage("export", "scene.yaml", "-o", ".", "--format", "usd", "--quiet", code=2)[1]
+        self.assertIn("`pelage export` did not write it", said)
+        self.assertEqual((self.path / "README.md").read_text(), "mine")
+        self.export("pbrt", "--allow-scripts", "--allow-procedurals")
+
     @unittest.skipUnless(JUDGE and shutil.which("node"), "needs Node.js and tinyusdz")
     def test_tinyusdz_reads_the_same_numbers(self):
         files = sorted(self.export("usd").rglob("*.usda"))

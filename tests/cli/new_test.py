@@ -23,6 +23,18 @@ class NewTest(ProgramTest):
                                    "--set", "image.width=24", "--set", "image.height=16")
             self.assertEqual(said[1], "")
 
+    def test_a_mesh_of_usd_is_one_too(self):
+        (self.path / "box.usda").write_text("""#usda 1.0
+def Mesh "box"
+{
+    int[] faceVertexCounts = [3, 3, 3, 3]
+    int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 0, 1), (0, 1, 0)]
+}
+""")
+        self.run_pelage("new", "box.usda", "-o", "fur.yaml", "--strands", "10")
+        self.run_pelage("grow", "fur.yaml", "-o", "a.hair", "--quiet")
+
     def test_axes_can_be_chosen(self):
         self.assertIn("faces -x, with z up", self.new("--facing", "-x", "--up", "z")[0])
         self.assertIn("up: [0, 0, 1]", self.scene())
@@ -46,7 +58,7 @@ class NewTest(ProgramTest):
         (self.path / "bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
         self.assertIn("bad.obj:2:", self.run_pelage("new", "bad.obj", "-o", "fur.yaml", code=3)[1])
         self.assertIn("named .yaml", self.run_pelage("new", "cube.obj", "-o", "fur.txt", code=2)[1])
-        self.assertIn("expected an .obj mesh", self.run_pelage("new", "a.ply", "-o", "fur.yaml", code=3)[1])
+        self.assertIn("expected an .obj or .usda mesh", self.run_pelage("new", "a.ply", "-o", "fur.yaml", code=3)[1])
         self.assertFalse((self.path / "fur.yaml").exists())
 
     def test_info_suggests_what_new_would_do(self):

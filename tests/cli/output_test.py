@@ -82,6 +82,14 @@ class Output(ProgramTest):
             self.assertIn("--stats", err)
         self.assertEqual((self.path / "a.exr").read_bytes(), before)
 
+    def test_no_frame_replaces_an_input(self):
+        self.run_pelage("grow", "scene.yaml", "-o", "g.0002.hair", "--quiet")
+        before = (self.path / "g.0002.hair").read_bytes()
+        err = self.run_pelage("grow", "scene.yaml", "-o", "g.%04d.hair", "--frames", "1-3", "--quiet", "--set",
+                              "grooms.coat={skin: cube, strands_file: g.0002.hair}", code=2)[1]
+        self.assertIn("-o g.0002.hair: would overwrite", err)
+        self.assertEqual((self.path / "g.0002.hair").read_bytes(), before)
+
     def test_an_empty_name_is_refused(self):
         self.refuses("-o", "", says="-o")
         self.refuses("--stats", "", says="--stats")

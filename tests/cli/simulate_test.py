@@ -31,6 +31,23 @@ class Simulate(ProgramTest):
         self.assertEqual(self.motion("a"), self.motion("b"))
         self.assertEqual(len(self.motion("a")), 5)  # -0, 1 .. 4: two frames of preroll and half a frame behind
 
+    def test_colliders_may_shrink_to_nothing(self):
+        (self.path / "hand.yaml").write_text("""pelage: 1
+include: scene.yaml
+characters:
+  hand:
+    parts: [{skin: cube, material: hide}]
+    transform: {translate: [0, 2.1, 0], scale: {keys: {1: 1, 2: 1e-9}}}
+grooms: {coat: {dynamics: {guides: 40, diameter: 5e-5, preroll: 0, collide_with: [hand]}}}
+""")
+        self.run_pelage("simulate", "hand.yaml", "--frames", "1-3", "--set", "grooms.coat.dynamics.directory=c")
+
+    def test_the_plan_of_a_shot_has_no_flag_that_it_does_not_know(self):
+        plan = self.run_pelage("farm", "plan", "scene.yaml", "--frames", "1", "-o", "a.%04d.exr", *MOVING,
+                               "--allow-procedurals")[0].splitlines()[0]
+        self.assertIn("--allow-procedurals", plan)
+        self.simulate("1", "a", "--allow-procedurals")
+
     def test_damaged_frames_are_made_again(self):
         self.simulate("1-2", "a")
         before = self.motion("a")
