@@ -73,8 +73,8 @@ TEST_F(ExportNames, OfTwinMaterialsAvoidThoseOfTheScene) {
   const std::string text =
       exported(ExportFormat::kMitsuba, "fur.xml", "a_b_2",
                {{"materials.a_b.color", "{ramp: {along: y, knots: [[0, 0.1], [1, 0.5]]}}"}});
-  EXPECT_EQ(count(text, "id=\"a_b_2\""), 1u);
-  EXPECT_EQ(count(text, "id=\"a_b_3\""), 1u);
+  EXPECT_EQ(count(text, "id=\"a_b_2\">\n"), 1u);
+  EXPECT_EQ(count(text, "id=\"a_b_3\">\n"), 1u);
 }
 
 }  // namespace
