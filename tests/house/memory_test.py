@@ -88,7 +88,7 @@ class Memory(unittest.TestCase):
         return file
 
     def test_examples(self):
-        """Also that each renders: what is refused renders with more memory."""
+        """Each example either keeps to the limit, or is refused and renders with more memory."""
         scenes = [path for path in sorted((ROOT / "examples").glob("*.yaml")) if path.name not in SOAKS]
         small = "image.width=96", "image.height=54", "render.samples=1", "frames=1"
         for path in scenes:
