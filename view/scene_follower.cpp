@@ -58,6 +58,7 @@ SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> 
   stamps_ = last_->files;
   watch_.watch(files_);
   renderer_.submit(last_);
+  show_lights();
   thread_ = std::thread([this] { run(); });
   state_.control().on_change([this] { watch_.wake(); });
 }
@@ -164,14 +165,18 @@ std::shared_ptr<const SceneEdit> SceneFollower::read() {
   scene.growth_cache = growth_cache_;
   scene.scripts = scripts_;
   FileStamps stamps = stamps_of(followed_files(scene));
-  state_.update([&](ViewStatus& status) {
-    status.camera = camera_of(scene, camera_.has_value());
-    status.lights = view_lights(scene, scene.frames.frames.front(), lights_);
-  });
+  state_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
   for (auto& [file, stamp] : stamps) {
     if (const auto known = before.find(file); known != before.end()) stamp = known->second;
   }
   return std::make_shared<const SceneEdit>(SceneEdit{std::move(scene), std::move(stamps), noticed});
+}
+
+/// Lights are shown after their edit was submitted: whoever sees them at rest sees a picture that has them.
+void SceneFollower::show_lights() {
+  const SceneDescription& scene = last_->scene;
+  state_.update(
+      [&](ViewStatus& status) { status.lights = view_lights(scene, scene.frames.frames.front(), lights_); });
 }
 
 void SceneFollower::run() {
@@ -203,9 +208,11 @@ void SceneFollower::read_again() {
     const bool failed = !state_.status().render_error.empty();
     const bool same = edit->redo_after(*last_) == Redo::kNothing && !failed;
     state_.update([](ViewStatus& status) { status.scene_error.clear(); });
-    if (same) return;
-    last_ = edit;
-    renderer_.submit(std::move(edit));
+    if (!same) {
+      last_ = std::move(edit);
+      renderer_.submit(last_);
+    }
+    show_lights();
   } catch (const std::exception& error) {  // an Error, or a failure of the system
     stamps_ = stamps_of(files_);
     state_.update([&](ViewStatus& status) { status.scene_error = error.what(); });

@@ -35,6 +35,7 @@ class SceneFollower {
   void read_again();
   std::shared_ptr<const SceneEdit> read();
   LightChanges shown_lights(const SceneDescription& scene);
+  void show_lights();
   /// Loads the scene with the camera, the frame and the lights that clients have chosen.
   SceneDescription load_shown();
 
