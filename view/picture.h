@@ -21,6 +21,7 @@ std::string layer_of(const std::string& channel);
 struct Picture {
   uint64_t version = 0;  ///< greater for each later picture
   int edit = 0;          ///< ViewStatus::edits of the edit that it shows
+  int frame = 1;         ///< of the scene
   int width = 0, height = 0;
   int grid = 1;          ///< see PassState; pixels between those of the grid are still empty
   PixelBox full;         ///< see PassState

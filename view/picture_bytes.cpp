@@ -29,10 +29,10 @@ void append(const ExrChannel& channel, std::string& bytes) {
 }  // namespace
 
 std::string layer_bytes(const Picture& picture, const std::vector<std::string>& layers) {
-  nlohmann::json head{
-      {"version", picture.version},         {"edit", picture.edit}, {"width", picture.width},
-      {"height", picture.height},           {"grid", picture.grid}, {"samples", picture.samples},
-      {"channels", nlohmann::json::array()}};
+  nlohmann::json head{{"version", picture.version}, {"edit", picture.edit},
+                      {"frame", picture.frame},     {"width", picture.width},
+                      {"height", picture.height},   {"grid", picture.grid},
+                      {"samples", picture.samples}, {"channels", nlohmann::json::array()}};
   const PixelBox& full = picture.full;
   head["full"] = {full.x0, full.y0, full.x1, full.y1};
   for (const std::string& layer : layers) {

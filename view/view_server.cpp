@@ -16,6 +16,7 @@
 #include "view/page_files.h"
 #include "view/picture.h"
 #include "view/picture_bytes.h"
+#include "view/scene_edit.h"
 #include "view/view_state.h"
 
 namespace pelage {
@@ -57,6 +58,7 @@ std::string state_json(ViewState& view, const Picture* picture) {
       region ? nlohmann::json{region->x0, region->y0, region->x1, region->y1} : nlohmann::json();
   state["frame"] = status.frame;
   state["frames"] = status.frames;
+  state["fps"] = status.edit ? status.edit->scene.units.fps : UnitsParams().fps;
   state["pages"] = view.pages();
   state["layers"] = status.layers;
   state["warnings"] = status.warnings;

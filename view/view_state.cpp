@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "view/scene_edit.h"
+
 namespace pelage {
 namespace {
 
@@ -32,6 +34,7 @@ void ViewState::publish(Picture picture) {
   const std::lock_guard lock(mutex_);
   picture.version = ++version_;
   picture.edit = status_.edits;
+  if (status_.edit) picture.frame = status_.edit->scene.frames.frames.front();
   picture_ = std::make_shared<const Picture>(std::move(picture));
 }
 

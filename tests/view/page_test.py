@@ -236,6 +236,24 @@ class Page(PageTest):
         browser.execute_script("const e = document.getElementById('frame'); e.value = 0; e.dispatchEvent(new Event('input'))")
         self.wait(lambda state: state["frame"] == 1)
 
+        # Plays the frames without rendering them again.
+        play = browser.find_element(By.ID, "play")
+        play.click()
+        shows = lambda frame: self.state()["frame"] == 3 and self.text(browser, "frame_number") == str(frame)
+        self.until(lambda: shows(2))
+        self.until(lambda: shows(1))
+        edits = self.state()["edits"]
+        self.until(lambda: shows(3) and self.mean(browser)[0] > dark + 20)
+        self.until(lambda: shows(1) and self.mean(browser)[0] < dark + 10)
+        self.assertEqual(self.state()["edits"], edits)
+        # An edit begins again.
+        self.replace("radiance: 0.3", "radiance: 0.2")
+        self.until(lambda: self.state()["edits"] >= edits + 3)
+        self.until(lambda: shows(2))
+        play.click()
+        self.until(lambda: self.text(browser, "frame_number") == str(self.state()["frame"]))
+        self.assertEqual(play.get_attribute("aria-pressed"), "false")
+
     def test_a_rectangle_is_refined_first(self):
         self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=100000")
         browser = self.open()

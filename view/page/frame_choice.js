@@ -11,6 +11,7 @@ export class FrameChoice {
     this.frames = [];
     this.wanted = null;  // the frame to send next; null for none
     this.sends = false;
+    this.isLed = false;  // by a flip book
     element("frame").addEventListener("input", event => this.choose(Number(event.target.value)));
   }
 
@@ -19,8 +20,11 @@ export class FrameChoice {
     this.frames = frames;
     element("frames").hidden = frames.length < 2;
     element("frame").max = frames.length - 1;
-    if (this.sends) return;  // the slider is ahead of the server
-    element("frame").value = frames.indexOf(frame);
+    if (!this.sends && !this.isLed) this.show(frame);  // while it sends, the slider is ahead of the server
+  }
+
+  show(frame) {
+    element("frame").value = this.frames.indexOf(frame);
     element("frame_number").textContent = frame;
   }
 

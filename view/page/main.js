@@ -8,6 +8,7 @@ import {LightTool} from "./light_tool.js";
 import {WhyTool} from "./why_tool.js";
 import {Mixer} from "./mixer.js";
 import {FrameChoice} from "./frame_choice.js";
+import {FlipBook} from "./flip_book.js";
 import {offerText} from "./scene_text.js";
 
 const element = id => document.getElementById(id);
@@ -26,6 +27,7 @@ const view = {
 const camera = new CameraTool(view), region = new RegionTool(view);
 view.camera = () => camera.camera;  // the one that is to be shown; null: the state's
 const why = new WhyTool(view, () => toggle("why_mode", false)), frames = new FrameChoice(view.tell);
+const book = new FlipBook(element("play"), frames, view.tell, () => draw());
 const isOn = id => element(id).getAttribute("aria-pressed") === "true";
 const takesClick = (event, id, key) => event.type === "pointerdown" && (event[key] || isOn(id));
 const toolOf = event => takesClick(event, "region_mode", "shiftKey") ? region : takesClick(event, "why_mode", "altKey") ? why
@@ -43,8 +45,10 @@ function chooseBeauty() {
 
 const mixes = shown => shown === layer && layer.name === "beauty" && mixer.mixes;
 
+const shownLayer = () => showsKept && kept ? kept : book.shown ?? layer;
+
 function draw() {
-  const shown = showsKept && kept ? kept : layer;
+  const shown = shownLayer();
   if (!shown) return;
   const stops = Number(element("exposure").value), film = element("transform").value === "film";
   const mixed = mixes(shown), began = performance.now();
@@ -64,7 +68,7 @@ function drawSoon() {
 }
 
 function showValues() {
-  const shown = showsKept && kept ? kept : layer;
+  const shown = shownLayer();
   if (!shown || !cursor || cursor.x >= shown.width || cursor.y >= shown.height) {
     element("values").textContent = "";
     return;
@@ -116,6 +120,7 @@ async function refresh() {
     }
   }
   if (changed) draw();
+  book.update(state, layer);
   camera.update();
   why.update();
   lights.update();
@@ -165,19 +170,23 @@ const compare = shows => { if (showsKept !== shows) { showsKept = shows; draw();
 element("before").addEventListener("pointerdown", () => compare(true));
 addEventListener("pointerup", () => compare(false));
 
+element("frame").addEventListener("input", () => book.stop(false));
 for (const id of ["camera_mode", "lights_mode", "why_mode"]) element(id).addEventListener("click", () => toggle(id));
 element("region_mode").addEventListener("click", () => state?.region ? region.clear() : toggle("region_mode"));
 element("dual").addEventListener("click", () => command("preview.json", {dual: !isOn("dual")}).catch(problem => view.tell(problem.message)));
 element("camera_reset").addEventListener("click", () => camera.reset());
 element("camera_text").addEventListener("click", () => offerText("Camera of this view", "camera.json", {}));
 
-const keys = {d: "dual", f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode"};
+const keys = {d: "dual", f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode", p: "play"};
 addEventListener("keydown", event => {
   const isTyping = ["SELECT", "TEXTAREA", "INPUT"].includes(event.target.tagName) && event.target.type !== "range";
   if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;
   if (event.key in keys) element(keys[event.key]).click();
   if (event.key === "b") compare(true);
-  if (event.key === "," || event.key === ".") frames.step(event.key === "." ? 1 : -1);
+  if (event.key === "," || event.key === ".") {
+    book.stop();
+    frames.step(event.key === "." ? 1 : -1);
+  }
   if (event.key === "Escape" && !element("why").hidden) why.close();
   else if (event.key === "Escape" && (state?.region || region.last)) region.clear();
 });
