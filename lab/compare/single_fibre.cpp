@@ -14,14 +14,14 @@ namespace {
 
 constexpr int kPaths = 200000;
 
-constexpr Canvas::Color kWhite = {255, 255, 255}, kInk = {30, 30, 30}, kPale = {205, 205, 205},
+constexpr Canvas::Color kWhite = {255, 255, 255}, kDarkInk = {30, 30, 30}, kPale = {205, 205, 205},
                         kModelInk = {31, 95, 180}, kTracedInk = {214, 96, 20};
 
-constexpr int kCellSize = 5, kLeft = 150, kTop = 44, kGap = 16, kPolar = 232;
+constexpr int kCellSize = 5, kLeft = 150, kTop = 44, kPanelGap = 16, kPolar = 232;
 constexpr int kMapWidth = kCellSize * FibreHistogram::kAzimuths,
               kMapHeight = kCellSize * FibreHistogram::kSines;
-constexpr int kRow = kPolar + kGap;
-constexpr double kTitle = 16, kSmall = 12;  // font sizes
+constexpr int kRow = kPolar + kPanelGap;
+constexpr double kTitleSize = 16, kSmallSize = 12;  // font sizes
 
 /// Black through blue, red and yellow to white, with uniformly increasing lightness.
 Canvas::Color heat(double x) {
@@ -82,7 +82,7 @@ void draw_polar(Canvas& canvas, int x, int y, const SingleFibre& fibre) {
 }
 
 void center(Canvas& canvas, int x, int width, int y, const std::string& text, Canvas::Color color) {
-  canvas.label({x + 0.5 * width, y + 13.0, text, TextAnchor::kMiddle, color, kTitle});
+  canvas.label({x + 0.5 * width, y + 13.0, text, TextAnchor::kMiddle, color, kTitleSize});
 }
 
 }  // namespace
@@ -113,29 +113,29 @@ SingleFibre compare_single_fibre(const std::string& model, const MaterialParams&
 }
 
 Picture single_fibre_sheet(const std::vector<SingleFibre>& fibres) {
-  const int map2 = kLeft + kMapWidth + kGap, polar = map2 + kMapWidth + kGap;
-  Canvas canvas(polar + kPolar + kGap, kTop + kRow * static_cast<int>(fibres.size()) + 30, kWhite);
+  const int map2 = kLeft + kMapWidth + kPanelGap, polar = map2 + kMapWidth + kPanelGap;
+  Canvas canvas(polar + kPolar + kPanelGap, kTop + kRow * static_cast<int>(fibres.size()) + 30, kWhite);
   center(canvas, kLeft, kMapWidth, 14, "the model", kModelInk);
   center(canvas, map2, kMapWidth, 14, "light traced through the fibre", kTracedInk);
-  center(canvas, polar, kPolar, 14, "around the fibre", kInk);
+  center(canvas, polar, kPolar, 14, "around the fibre", kDarkInk);
   int y = kTop;
   for (const SingleFibre& fibre : fibres) {
     const int map_y = y + (kPolar - kMapHeight) / 2;
     const double middle = y + kPolar / 2;
-    canvas.label({10, middle - 18, fibre.model, TextAnchor::kStart, kInk, kTitle});
+    canvas.label({10, middle - 18, fibre.model, TextAnchor::kStart, kDarkInk, kTitleSize});
     canvas.label({10, middle + 2, fmt::format("energy {:.3f}", fibre.by_model.total()), TextAnchor::kStart,
-                  kModelInk, kSmall});
+                  kModelInk, kSmallSize});
     canvas.label({10, middle + 18, fmt::format("traced {:.3f}", fibre.traced.total()), TextAnchor::kStart,
-                  kTracedInk, kSmall});
+                  kTracedInk, kSmallSize});
     draw_map(canvas, kLeft, map_y, fibre.by_model);
     draw_map(canvas, map2, map_y, fibre.traced);
     draw_polar(canvas, polar, y, fibre);
     y += kRow;
   }
   for (const int x : {kLeft, map2}) {
-    center(canvas, x, kMapWidth, y, "phi: through | back | through", kInk);
+    center(canvas, x, kMapWidth, y, "phi: through | back | through", kDarkInk);
   }
-  center(canvas, polar, kPolar, y, "through | back", kInk);
+  center(canvas, polar, kPolar, y, "through | back", kDarkInk);
   return canvas.picture();
 }
 

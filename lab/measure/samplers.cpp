@@ -20,33 +20,33 @@ namespace {
 constexpr int kPlainShares[] = {16, 4};
 constexpr int kReferenceFactor = 2;
 
-void set(Variant& variant, const std::string& key, const std::string& value) {
+void set_value(Variant& variant, const std::string& key, const std::string& value) {
   variant.arguments.insert(variant.arguments.end(), {"--set", key + "=" + value});
 }
 
 /// Each variant has another seed, so that no two pictures share noise.
-Variant variant_of(const std::string& id, const std::string& title, int samples, size_t seed) {
+Variant sampler_variant(const std::string& id, const std::string& title, int samples, size_t seed) {
   Variant variant{id, title, "render", {}};
-  set(variant, "render.samples", std::to_string(samples));
-  set(variant, "render.seed", std::to_string(1000 + seed));
-  set(variant, "render.indirect", "path");
-  set(variant, "render.integrator", "path");
-  set(variant, "image.noise_layers", "true");
-  set(variant, "image.light_layers", "false");
+  set_value(variant, "render.samples", std::to_string(samples));
+  set_value(variant, "render.seed", std::to_string(1000 + seed));
+  set_value(variant, "render.indirect", "path");
+  set_value(variant, "render.integrator", "path");
+  set_value(variant, "image.noise_layers", "true");
+  set_value(variant, "image.light_layers", "false");
   return variant;
 }
 
-struct Row {
+struct SamplerRow {
   int plain = 0;        // samples of the uniform picture that it is compared with; 0: a reference
   size_t plain_at = 0;  // its index
   PictureError error;
   bool known = false;
 };
 
-class Sweep {
+class SamplerSweep {
  public:
   /// `magnets`: whether the scene has some; then it is also rendered without them.
-  Sweep(int max, bool magnets, const MeasureSetup& setup, Progress& progress)
+  SamplerSweep(int max, bool magnets, const MeasureSetup& setup, Progress& progress)
       : max_(max),
         magnets_(magnets),
         progress_(progress),
@@ -54,7 +54,7 @@ class Sweep {
 
   void run() {
     for (const char* id : {"reference-a", "reference-b"}) {
-      Variant reference = variant_of(id, id, kReferenceFactor * max_, outcomes.size());
+      Variant reference = sampler_variant(id, id, kReferenceFactor * max_, outcomes.size());
       reference.once = true;
       if (!add(reference, 0, 0)) return;
     }
@@ -62,26 +62,27 @@ class Sweep {
     for (const int share : kPlainShares) {
       const int samples = std::max(1, max_ / share);
       const size_t plain = outcomes.size();
-      if (!add(
-              variant_of(fmt::format("plain-{}", samples), fmt::format("plain, {}", samples), samples, plain),
-              samples, plain))
+      if (!add(sampler_variant(fmt::format("plain-{}", samples), fmt::format("plain, {}", samples), samples,
+                               plain),
+               samples, plain))
         return;
       // The noise of uniform sampling is the noise budget of the others.
       const std::string noise = fmt::format("{:g}", outcomes[plain].number("noise"));
       const auto adaptive = [&](const char* goal) {
-        Variant variant = variant_of(fmt::format("{}-{}", goal, samples),
-                                     fmt::format("adaptive, {}, {}", goal, samples), max_, outcomes.size());
-        set(variant, "render.adaptive.goal", goal);
-        set(variant, "render.adaptive.noise", noise);
+        Variant variant =
+            sampler_variant(fmt::format("{}-{}", goal, samples),
+                            fmt::format("adaptive, {}, {}", goal, samples), max_, outcomes.size());
+        set_value(variant, "render.adaptive.goal", goal);
+        set_value(variant, "render.adaptive.noise", noise);
         return add(variant, samples, plain);
       };
       if (!adaptive("frame") || !adaptive("pixel")) return;
       const auto gather = [&](const char* id, const char* title, const char* reject) {
-        Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
-                                     samples, outcomes.size());
-        set(variant, "render.integrator", "gather");
-        set(variant, "render.gather.reject", reject);
-        set(variant, "image.noise_layers", "false");
+        Variant variant = sampler_variant(fmt::format("{}-{}", id, samples),
+                                          fmt::format("{}, {}", title, samples), samples, outcomes.size());
+        set_value(variant, "render.integrator", "gather");
+        set_value(variant, "render.gather.reject", reject);
+        set_value(variant, "image.noise_layers", "false");
         return add(variant, samples, plain);
       };
       if (!gather("gather", "gather", "false") || !gather("reject", "gather, rejecting", "true")) return;
@@ -92,23 +93,23 @@ class Sweep {
   }
 
   std::vector<Outcome> outcomes;
-  std::vector<Row> rows;
+  std::vector<SamplerRow> rows;
   BestGain best{NAN, NAN};
   const VariantRunner& runner() const { return runner_; }
 
  private:
   bool without_magnets(const std::string& integrator, int samples, size_t plain) {
     Variant variant =
-        variant_of(fmt::format("{}-without-magnets-{}", integrator, samples),
-                   fmt::format("{} without magnets, {}", integrator, samples), samples, outcomes.size());
-    set(variant, "render.integrator", integrator);
-    set(variant, "magnets", "{}");
-    set(variant, "image.noise_layers", "false");
+        sampler_variant(fmt::format("{}-without-magnets-{}", integrator, samples),
+                        fmt::format("{} without magnets, {}", integrator, samples), samples, outcomes.size());
+    set_value(variant, "render.integrator", integrator);
+    set_value(variant, "magnets", "{}");
+    set_value(variant, "image.noise_layers", "false");
     return add(variant, samples, plain);
   }
   bool add(const Variant& variant, int plain, size_t plain_at) {
     outcomes.push_back(runner_.run(variant));
-    Row row{plain, plain_at, {}, false};
+    SamplerRow row{plain, plain_at, {}, false};
     if (plain > 0 && outcomes.back().succeeded()) {
       const auto error =
           picture_error_of_files(runner_.picture(variant), runner_.picture(outcomes[0].variant),
@@ -128,8 +129,8 @@ class Sweep {
 };
 
 /// Uniform samples per pixel that would have the error of this row, relative to its samples.
-double gain(const std::vector<Row>& rows, const Row& row, double samples) {
-  const Row& plain = rows[row.plain_at];
+double gain_of(const std::vector<SamplerRow>& rows, const SamplerRow& row, double samples) {
+  const SamplerRow& plain = rows[row.plain_at];
   if (!row.known || !plain.known) return NAN;
   return plain.plain * plain.error.rel_mse / row.error.rel_mse / samples;
 }
@@ -165,7 +166,7 @@ void add_techniques(const SceneDescription& scene, Report& report, Progress& pro
 }  // namespace
 
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress) {
-  Sweep sweep(scene.render.samples, !scene.magnets.items.empty(), setup, progress);
+  SamplerSweep sweep(scene.render.samples, !scene.magnets.items.empty(), setup, progress);
   sweep.run();
   Measured measured;
   measured.outcomes = std::move(sweep.outcomes);
@@ -175,28 +176,29 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
   report.data = outcome_table(outcomes);
   const auto add = [&](const char* key, const char* title, Quantity quantity, const auto& value) {
     add_column(report.data, {key, title, quantity}, outcomes, [&](const Outcome& o) -> Cell {
-      const Row& row = sweep.rows[static_cast<size_t>(&o - outcomes.data())];
+      const SamplerRow& row = sweep.rows[static_cast<size_t>(&o - outcomes.data())];
       return row.known ? value(row) : NAN;
     });
   };
   add_column(report.data, {"noise", "noise", Quantity::kPercent}, outcomes,
              [](const Outcome& o) -> Cell { return o.number("noise"); });
-  add("samples", "samples", Quantity::kRatio, [](const Row& r) { return r.error.samples; });
+  add("samples", "samples", Quantity::kRatio, [](const SamplerRow& r) { return r.error.samples; });
   add("surface_samples", "on surfaces", Quantity::kRatio,
-      [](const Row& r) { return r.error.region_samples; });
-  add("rel_mse", "relMSE", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse; });
-  add("rel_mse_4", "of 4 x 4", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse_4; });
-  add("rel_mse_16", "of 16 x 16", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse_16; });
-  add("top_error", "99.9th percentile", Quantity::kPercent, [](const Row& r) { return r.error.top_error; });
-  add("bias", "bias", Quantity::kPercent, [](const Row& r) { return r.error.bias; });
+      [](const SamplerRow& r) { return r.error.region_samples; });
+  add("rel_mse", "relMSE", Quantity::kRatio, [](const SamplerRow& r) { return r.error.rel_mse; });
+  add("rel_mse_4", "of 4 x 4", Quantity::kRatio, [](const SamplerRow& r) { return r.error.rel_mse_4; });
+  add("rel_mse_16", "of 16 x 16", Quantity::kRatio, [](const SamplerRow& r) { return r.error.rel_mse_16; });
+  add("top_error", "99.9th percentile", Quantity::kPercent,
+      [](const SamplerRow& r) { return r.error.top_error; });
+  add("bias", "bias", Quantity::kPercent, [](const SamplerRow& r) { return r.error.bias; });
   add("gain", "fewer samples", Quantity::kRatio,
-      [&](const Row& r) { return gain(sweep.rows, r, r.error.samples); });
+      [&](const SamplerRow& r) { return gain_of(sweep.rows, r, r.error.samples); });
   add("surface_gain", "on surfaces", Quantity::kRatio,
-      [&](const Row& r) { return gain(sweep.rows, r, r.error.region_samples); });
+      [&](const SamplerRow& r) { return gain_of(sweep.rows, r, r.error.region_samples); });
   add("inverse_surface_share", "1 / share of surfaces", Quantity::kRatio,
-      [](const Row& r) { return 1 / r.error.region_share; });
+      [](const SamplerRow& r) { return 1 / r.error.region_share; });
   add("inverse_coverage", "1 / coverage", Quantity::kRatio,
-      [](const Row& r) { return 1 / r.error.coverage; });
+      [](const SamplerRow& r) { return 1 / r.error.coverage; });
 
   report.sections.push_back(
       {"Method",

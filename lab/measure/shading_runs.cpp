@@ -21,9 +21,10 @@ constexpr int kSequenceShare = 8;
 /// Samples of the warm-up run, which also measures the noise of `path`.
 constexpr int kWarmUpSamples = 16;
 
-class Sweep {
+class ShadingSweep {
  public:
-  Sweep(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup, Progress& progress)
+  ShadingSweep(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
+               Progress& progress)
       : results{shading_curves(scene, plan.parts), {}, {}, same_as_gather(scene)},
         scene_(scene),
         plan_(plan),
@@ -186,7 +187,7 @@ class Sweep {
 
 ShadingRuns run_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                         Progress& progress) {
-  Sweep sweep(scene, plan, setup, progress);
+  ShadingSweep sweep(scene, plan, setup, progress);
   sweep.run();
   return std::move(sweep.results);
 }

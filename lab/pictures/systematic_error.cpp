@@ -18,24 +18,25 @@ Colors means_of(const Colors& planes, int size) {
 }
 
 /// Sums over R, G and B of one block: of x - a, of y - b, and of t.
-struct Block {
+struct SharedBlock {
   double x_error = 0, y_error = 0, t = 0;
 };
 
 /// The error that one picture has where the other one is worst.
-double worst_error(const std::vector<Block>& blocks, double m) {
-  const auto error_of = [&](const Block& block, double Block::*error) {
+double worst_error(const std::vector<SharedBlock>& blocks, double m) {
+  const auto error_of = [&](const SharedBlock& block, double SharedBlock::*error) {
     return block.*error == 0 ? 0 : block.*error / std::sqrt(block.t * block.t + 0.01 * m * m);
   };
-  const auto worst_of = [&](double Block::*chooses, double Block::*answers) {
+  const auto worst_of = [&](double SharedBlock::*chooses, double SharedBlock::*answers) {
     return error_of(*std::max_element(blocks.begin(), blocks.end(),
-                                      [&](const Block& p, const Block& q) {
+                                      [&](const SharedBlock& p, const SharedBlock& q) {
                                         return std::abs(error_of(p, chooses)) <
                                                std::abs(error_of(q, chooses));
                                       }),
                     answers);
   };
-  const double x = worst_of(&Block::y_error, &Block::x_error), y = worst_of(&Block::x_error, &Block::y_error);
+  const double x = worst_of(&SharedBlock::y_error, &SharedBlock::x_error),
+               y = worst_of(&SharedBlock::x_error, &SharedBlock::y_error);
   return std::abs(x) > std::abs(y) ? x : y;
 }
 
@@ -46,11 +47,11 @@ BlockError shared_error(const std::array<Colors, 4>& pictures, const Plane& regi
   const auto& [x, y, a, b] = means;
   double m = 0;
   for (size_t c = 0; c < 3; ++c) m += mean_over(mean_of(a[c], b[c]), inside) / 3;
-  std::vector<Block> blocks;
+  std::vector<SharedBlock> blocks;
   double sum = 0;
   for (size_t p = 0; p < inside.pixels.size(); ++p) {
     if (!(inside.pixels[p] > 0.5)) continue;
-    Block block;
+    SharedBlock block;
     for (size_t c = 0; c < 3; ++c) {
       const double x_error = x[c].pixels[p] - a[c].pixels[p], y_error = y[c].pixels[p] - b[c].pixels[p],
                    t = (a[c].pixels[p] + b[c].pixels[p]) / 2;
