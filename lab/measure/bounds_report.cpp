@@ -80,7 +80,7 @@ std::string load_text(const std::vector<Outcome>& outcomes) {
 }
 
 // Findings about the strategies in question.
-std::string findings(const std::vector<Outcome>& outcomes) {
+std::string bounds_findings(const std::vector<Outcome>& outcomes) {
   const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
                                    [](const Outcome& o) { return o.number("chunk_visits") > 0; });
   if (!counted) return "No ray visited a chunk in any run, so the runs do not compare the strategies.";
@@ -262,7 +262,7 @@ Report bounds_report(const BoundsResults& results) {
   const std::vector<Outcome> strategies(results.outcomes.begin(), results.outcomes.begin() + count);
   Table data = report.data;
   data.rows.resize(results.strategies);
-  report.abstract = findings(strategies);
+  report.abstract = bounds_findings(strategies);
   report.sections.push_back(
       {"Method",
        {Paragraph{fmt::format("Every variant renders the same frame with all its strands, in its own "
