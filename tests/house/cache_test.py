@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""cache_test.py PELAGE: processes that share an operator cache, die over it or find it damaged grow the same hair."""
+"""cache_test.py PELAGE STRANDS: processes that share an operator cache, die over it or find it damaged grow the same hair."""
 import pathlib
 import subprocess
 import sys
@@ -8,6 +8,7 @@ import time
 import unittest
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "tuft.yaml"
+STRANDS = int(sys.argv.pop())  # enough for a process to be killed in the middle
 PELAGE = sys.argv.pop()
 
 
@@ -22,8 +23,8 @@ class Cache(unittest.TestCase):
 
     def start(self, *more):
         return subprocess.Popen(
-            [PELAGE, "grow", SCENE, "--threads", "2", "--set", "grooms.coat.strands=12000",
-             "--set", "grooms.coat.leaf_strands=1000",
+            [PELAGE, "grow", SCENE, "--threads", "2", "--set", f"grooms.coat.strands={STRANDS}",
+             "--set", f"grooms.coat.leaf_strands={STRANDS // 12}",
              "--set", f"grooms.coat.cache={{directory: {self.cache}, freeze: frizz}}", *more],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""examples_test.py PELAGE: every scene in examples/ can be read, with all its assets; the small colony renders."""
+"""examples_test.py PELAGE [TESTS]: every scene in examples/ can be read, with all its assets; the small colony renders."""
 import json
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
-PELAGE = sys.argv.pop()
+PELAGE = sys.argv.pop(1)
 
 
 class Examples(unittest.TestCase):
