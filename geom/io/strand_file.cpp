@@ -28,7 +28,8 @@ const Format kFormats[] = {
     {".usda", open_usd, write_usd, {"*"}, true, true},
     {".usd", open_usd, write_usd, {"*"}, true, true},
     {".usdc", open_usd, nullptr, {"*"}, true, true},
-    {".usdz", open_usd, nullptr, {"*"}, true, true}};
+    {".usdz", open_usd, nullptr, {"*"}, true, true},
+    {".abc", open_alembic, write_alembic, {"*"}, true, true}};
 
 const Format* find_format(const std::filesystem::path& path) {
   const std::string ending = lower_extension(path);

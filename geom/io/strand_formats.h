@@ -100,6 +100,8 @@ class HeldStrands : public RawStrands {
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
 /// Opens USD as text. All strands are then in memory.
 std::unique_ptr<RawStrands> open_usd(const std::filesystem::path& path, const StrandReadOptions& options);
+/// Opens Alembic. All strands are then in memory.
+std::unique_ptr<RawStrands> open_alembic(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
 /// Opens strands of the host, or a file. Throws Error (kInput) if the data of the host is not strands.
 std::unique_ptr<RawStrands> open_raw_strands(const AssetPath& asset, const StrandReadOptions& options);
@@ -108,6 +110,7 @@ std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands, bool widths);
 void write_usd(const std::filesystem::path& path, const Strands& strands, bool widths);
+void write_alembic(const std::filesystem::path& path, const Strands& strands, bool widths);
 void write_tfx(const std::filesystem::path& path, const Strands& strands, bool widths);
 /// Attribute of points: 0 where the simulation of a .tfx file fixes the point, else 1.
 inline constexpr const char* kMovable = "movable";

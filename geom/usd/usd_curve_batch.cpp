@@ -2,6 +2,7 @@
 #include "geom/usd/usd_curve_batch.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -56,6 +57,7 @@ class CurveJoiner {
   }
 
   StrandArrays join() {
+    reserve();
     for (UsdCurveBatch& batch : batches_) {
       add(batch);
       batch = {};
@@ -84,6 +86,18 @@ class CurveJoiner {
     } else {
       arrays_.attributes.push_back({name, frequency, components, {}});
     }
+  }
+
+  void reserve() {
+    size_t points = 0, strands = 1;
+    for (const UsdCurveBatch& batch : batches_) {
+      for (const uint32_t n : batch.counts) points += batch.form.points(n, resample_);
+      strands += batch.counts.size();
+    }
+    arrays_.points.reserve(4 * points);
+    arrays_.first_point.reserve(strands);
+    arrays_.ids.reserve(strands - 1);
+    if (has_uv_) arrays_.root_uv.reserve(strands - 1);
   }
 
   void add(const UsdCurveBatch& batch) {
@@ -229,6 +243,19 @@ class CurveJoiner {
 
 StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches) {
   return CurveJoiner(std::move(batches)).join();
+}
+
+int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches) {
+  std::map<std::string, size_t> components;
+  size_t points = 0;
+  for (const UsdCurveBatch& batch : batches) {
+    points += batch.points.size() / 3 + batch.counts.size();
+    for (const auto& [name, primvar] : batch.attributes)
+      components[name] = std::max(components[name], primvar.components);
+  }
+  size_t floats = 0;
+  for (const auto& [name, count] : components) floats += count * points;
+  return static_cast<int64_t>(floats * sizeof(float));
 }
 
 }  // namespace pelage
