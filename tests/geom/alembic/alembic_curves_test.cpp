@@ -87,6 +87,17 @@ TEST(AlembicCurves, RoundTripKeepsEverything) {
   }
 }
 
+TEST(AlembicCurves, StrandsThatMoveAreWrittenAtTheirFirstKey) {
+  const TemporaryFolder folder;
+  RandomStrandOptions options;
+  options.motion_keys = 2;
+  const Strands moving = random_strands(3, options);
+  write_strands(folder.path() / "a.abc", moving);
+  const StrandArrays read = read_alembic_curves(folder.path() / "a.abc").strands;
+  EXPECT_EQ(read.motion_keys, 1);
+  EXPECT_EQ(read.points, std::vector<float>(moving.points(0).begin(), moving.points(0).end()));
+}
+
 /// The strands that a program sees which follows AbcGeom and knows nothing of Pelage.
 Strands as_others_read(const StrandArrays& written, AlembicHost host, CurveBasis basis) {
   const Strands strands(written);
