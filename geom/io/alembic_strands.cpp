@@ -12,8 +12,7 @@ namespace {
 class AlembicStrands final : public HeldStrands {
  public:
   AlembicStrands(const std::filesystem::path& path, UsdCurvesFile read)
-      : HeldStrands(path.string(), "alembic", std::make_shared<const Strands>(std::move(read.strands)),
-                    true) {
+      : HeldStrands(path.string(), "alembic", std::move(read.strands)) {
     has_widths = read.has_widths;
     warnings = std::move(read.warnings);
   }

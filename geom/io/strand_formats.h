@@ -59,6 +59,13 @@ class RawStrands {
   /// Appends the strands [begin, end) to `arrays`, which empty() has made. Their ids are their indices in the
   /// file.
   virtual void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const = 0;
+  /// Returns all strands, as append() does. May move them out, so nothing else can be read afterwards.
+  virtual StrandArrays take_all() {
+    StrandArrays arrays = empty();
+    FileWindows windows(file);
+    append(0, strand_count, windows, arrays);
+    return arrays;
+  }
   /// Memory of the table of first points; 0 if the format needs none.
   virtual size_t bytes() const { return 0; }
 
@@ -88,11 +95,17 @@ class HeldStrands : public RawStrands {
   /// Ids of the strands must be their indices. `root_uv`: whether texture coordinates of roots are passed on.
   HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<const Strands> strands,
               bool root_uv = false);
+  /// Owns the strands, so that take_all() need not copy them. Passes texture coordinates of roots on.
+  HeldStrands(const std::string& name, const char* format_name, StrandArrays strands);
   uint32_t first_point(size_t strand) const override;
   void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const override;
+  StrandArrays take_all() override;
   size_t bytes() const override { return strands_->bytes(); }
 
  private:
+  HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<Strands> own);
+
+  std::shared_ptr<Strands> own_;  // strands_ if they are nobody else's
   const std::shared_ptr<const Strands> strands_;
   const bool root_uv_;
 };
