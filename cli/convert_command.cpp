@@ -4,6 +4,8 @@
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
+#include "geom/alembic/alembic_strands.h"
+#include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
 
 namespace pelage {
@@ -12,13 +14,20 @@ int run_convert(const Options& options) {
   if (!is_strand_file(options.output)) {
     throw Error(ErrorKind::kArguments, options.output + ": strands are written as " + kStrandEndings);
   }
+  if (options.host != AlembicHost::kAny && !is_alembic_file(options.output))
+    throw Error(ErrorKind::kArguments, "--for needs an .abc file to write");
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width, true});
   ProgressDisplay display(options.progress, [] { return false; });
   for (const std::string& warning : file.warnings) display.warn(warning);
   warn_of_losses(options.output, file.strands, display);
   // Widths that neither the file nor the user states stay unstated.
   const bool has_widths = file.assumed_width == 0;
-  write_strands(options.output, file.strands, has_widths);
+  if (options.host != AlembicHost::kAny) {
+    const std::string group = std::filesystem::path(options.output).stem().string();
+    write_alembic_strands(options.output, file.strands, {has_widths, group, options.host});
+  } else {
+    write_strands(options.output, file.strands, has_widths);
+  }
   std::cout << options.output << ": " << file.strands.strand_count() << " strands";
   if (!has_widths) std::cout << " without widths";
   if (file.repairs.repaired > 0) std::cout << ", " << file.repairs.repaired << " repaired";

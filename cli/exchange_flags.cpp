@@ -32,4 +32,19 @@ ExportFormat interpret_export(const std::string& format) {
   return static_cast<ExportFormat>(found - names.begin());
 }
 
+void add_host_flag(CLI::App& command, std::string& host) {
+  command
+      .add_option("--for", host,
+                  "Program that an .abc file is made for: unreal, with z up, left-handed axes and straight "
+                  "segments; lengths must be in centimetres")
+      ->type_name("PROGRAM");
+}
+
+AlembicHost interpret_host(const std::string& host) {
+  if (host.empty()) return AlembicHost::kAny;
+  if (host == "unreal") return AlembicHost::kUnreal;
+  const std::vector<std::string> names{"unreal"};
+  throw Error(ErrorKind::kArguments, "--for " + quote(host) + " is not known" + suggest(host, names));
+}
+
 }  // namespace pelage

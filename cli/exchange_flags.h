@@ -4,6 +4,7 @@
 #include <string>
 
 #include "exchange/scene_export.h"
+#include "geom/alembic/alembic_host.h"
 
 namespace CLI {
 class App;
@@ -17,5 +18,10 @@ void add_export_flags(CLI::App& command, std::string& folder, std::string& forma
 
 /// Returns the format that a text names. Throws Error (kArguments) with the nearest name.
 ExportFormat interpret_export(const std::string& format);
+
+/// Adds --for, a flag of `convert`, and interprets its text. interpret_host() throws Error (kArguments) for
+/// unknown programs.
+void add_host_flag(CLI::App& command, std::string& host);
+AlembicHost interpret_host(const std::string& host);
 
 }  // namespace pelage

@@ -13,8 +13,8 @@
 namespace pelage {
 namespace {
 
-/// A file of USD may have curves, meshes or both.
-std::string describe_usd(const Options& options) {
+/// A file of USD or Alembic may have curves, meshes or both.
+std::string describe_scene_file(const Options& options) {
   try {
     return describe_strands(read_strands(options.input, {options.basis, options.default_width}));
   } catch (const Error& error) {
@@ -32,14 +32,14 @@ std::string describe_file(const Options& options) {
     return describe_scene(read_scene(options, display));
   }
   if (!options.overrides.empty()) throw Error(ErrorKind::kArguments, "--set works on scene files only");
-  if (is_usd_file(path)) return describe_usd(options);
+  if (is_usd_file(path) || is_alembic_file(path)) return describe_scene_file(options);
   if (is_strand_file(path))
     return describe_strands(read_strands(path, {options.basis, options.default_width}));
   if (kind == ".obj") return describe_mesh(read_mesh_file(path), options.input);
   if (kind == ".exr") return describe_exr(read_exr(path));
   if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},
-              "unsupported file type; expected .yaml, .rib, .hair, .tfx, .usda, .obj, .exr or .cache");
+              "unsupported file type; expected .yaml, .rib, .hair, .tfx, .usda, .abc, .obj, .exr or .cache");
 }
 
 }  // namespace

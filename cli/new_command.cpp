@@ -51,9 +51,10 @@ int run_new(const Options& options) {
   StarterScene starter;
   starter.look = options.starter.preset.empty() ? coat_looks().front() : coat_look(options.starter.preset);
   starter.strands = options.starter.strands;
-  if (lower_extension(options.input) != ".obj" && !is_usd_file(options.input))
+  if (lower_extension(options.input) != ".obj" && !is_usd_file(options.input) &&
+      !is_alembic_file(options.input))
     throw Error(ErrorKind::kInput, {options.input, 0, 0},
-                "unsupported file type; expected an .obj or .usda mesh");
+                "unsupported file type; expected an .obj, .usda or .abc mesh");
   starter.mesh = path_from(scene, options.input);
   starter.shape = body_shape(read_mesh_file(options.input), options.input, up, facing);
   write_file(scene, starter_scene_text(starter));

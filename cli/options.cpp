@@ -33,6 +33,7 @@ struct Texts : RunTexts {
   std::string checkpoint_every;
   FarmTexts farm;
   std::string export_format;
+  std::string host;
 };
 
 void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
@@ -130,9 +131,10 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   add_rib_use_flags(*grow, options.rib_in);
   add_script_flag(*grow, options);
   CLI::Option* file =
-      grow->add_option("-o,--output", options.output,
-                       "Strand file to write (.hair, .tfx or .usda): all strands. With a place for the frame "
-                       "number, one file per frame: coat.%04d.hair")
+      grow->add_option(
+              "-o,--output", options.output,
+              "Strand file to write (.hair, .tfx, .usda or .abc): all strands. With a place for the frame "
+              "number, one file per frame: coat.%04d.hair")
           ->type_name("FILE");
   grow->add_flag("--lod", options.lod,
                  "Write only the strands that remain at the picture's level of detail (render.lod)")
@@ -154,7 +156,8 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* info = app.add_subcommand("info", "Describe a scene, strand file, mesh, EXR or cache file");
-  info->add_option("FILE", options.input, "A .yaml, .rib, .hair, .tfx, .usda, .obj, .exr or .cache file")
+  info->add_option("FILE", options.input,
+                   "A .yaml, .rib, .hair, .tfx, .usda, .abc, .obj, .exr or .cache file")
       ->required();
   info->add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
@@ -163,9 +166,11 @@ void add_info(CLI::App& app, Options& options, Texts& texts) {
 }
 
 void add_convert(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* convert = app.add_subcommand("convert", "Convert between strand formats (.hair, .tfx, .usda)");
+  CLI::App* convert =
+      app.add_subcommand("convert", "Convert between strand formats (.hair, .tfx, .usda, .abc)");
   convert->add_option("IN", options.input, "Strand file to read")->required();
   convert->add_option("OUT", options.output, "Strand file to write")->required();
+  add_host_flag(*convert, texts.host);
   add_strand_flags(*convert, options, texts);
 }
 
@@ -173,7 +178,7 @@ void add_validate(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* validate = app.add_subcommand(
       "validate",
       "Check a strand file for what other programs stumble over; exits with 3 if there is a problem");
-  validate->add_option("FILE", options.input, "A .usda, .hair or .tfx file")->required();
+  validate->add_option("FILE", options.input, "A .usda, .abc, .hair or .tfx file")->required();
   add_strand_flags(*validate, options, texts);
 }
 
@@ -253,7 +258,8 @@ void add_new(CLI::App& app, Options& options) {
     presets += fmt::format("{}{} ({})", presets.empty() ? "" : ", ", look.name, look.help);
   CLI::App* command = app.add_subcommand(
       "new", "Write a first scene for a mesh: a coat, lights and a camera that suit its size and axes");
-  command->add_option("MESH", options.input, "OBJ or USD (.usda) file of the animal")->required();
+  command->add_option("MESH", options.input, "OBJ, USD (.usda) or Alembic (.abc) file of the animal")
+      ->required();
   command->add_option("-o,--output", options.output, "Scene file to write")
       ->required()
       ->type_name("FUR.yaml");
@@ -327,6 +333,7 @@ void interpret(const Texts& texts, Options& options) {
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
   options.export_format = interpret_export(texts.export_format);
+  options.host = interpret_host(texts.host);
   interpret_farm(texts.farm, options.output, options.farm);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;

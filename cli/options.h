@@ -13,6 +13,7 @@
 #include "cli/rib_flags.h"
 #include "cli/run_options.h"
 #include "exchange/scene_export.h"
+#include "geom/alembic/alembic_host.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
 #include "post/merge_pieces.h"
@@ -80,6 +81,8 @@ struct Options : RunOptions {
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown
+
+  AlembicHost host = AlembicHost::kAny;  ///< convert: the program that an .abc file is made for
 
   std::optional<CurveBasis> basis;     ///< convert, info: curve basis, for strand files that do not state it
   std::optional<float> default_width;  ///< convert, info: width of strands, for files without widths

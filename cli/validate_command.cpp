@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "geom/alembic/alembic_validation.h"
 #include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
 #include "geom/usd/usd_validation.h"
@@ -18,7 +19,7 @@ void print_lines(const char* kind, const std::vector<std::string>& lines) {
   if (lines.size() > kMaxFindings) std::cout << kind << lines.size() - kMaxFindings << " more\n";
 }
 
-/// Binary strand files have no times, extents or ids, so a reader finds everything.
+/// .hair and .tfx files have no times, extents or ids, so a reader finds everything.
 UsdFindings validate_strands(const Options& options) {
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width});
   UsdFindings findings;
@@ -44,8 +45,9 @@ int run_validate(const Options& options) {
   if (!is_strand_file(options.input))
     throw Error(ErrorKind::kInput, {options.input, 0, 0},
                 std::string("expected a file ending in ") + kStrandEndings);
-  const UsdFindings findings =
-      is_usd_file(options.input) ? validate_usd(options.input) : validate_strands(options);
+  const UsdFindings findings = is_usd_file(options.input)       ? validate_usd(options.input)
+                               : is_alembic_file(options.input) ? validate_alembic(options.input)
+                                                                : validate_strands(options);
   std::cout << fmt::format("{}: {} strands of {} points, {} meshes\n", options.input, findings.strands,
                            findings.points, findings.meshes);
   print_lines("problem: ", findings.problems);

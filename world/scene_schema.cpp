@@ -61,7 +61,8 @@ const Schema<SkinParams>& SkinParams::schema() {
   rat: {mesh: rat.obj, scheme: catmull-clark}
   scan: {mesh: scan.obj, scheme: none})");
     s.key("mesh", &SkinParams::mesh,
-          {.help = "OBJ or USD (.usda) file of the control cage at rest. Of faces with the same vertices, "
+          {.help = "OBJ, USD (.usda) or Alembic (.abc) file of the control cage at rest. Of faces with the "
+                   "same vertices, "
                    "one is kept",
            .required = true});
     s.key(

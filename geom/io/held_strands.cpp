@@ -16,6 +16,16 @@ HeldStrands::HeldStrands(const std::string& name, const char* format_name,
   }
 }
 
+HeldStrands::HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<Strands> own)
+    : HeldStrands(name, format_name, std::shared_ptr<const Strands>(own), true) {
+  own_ = std::move(own);
+}
+
+HeldStrands::HeldStrands(const std::string& name, const char* format_name, StrandArrays strands)
+    : HeldStrands(name, format_name, std::make_shared<Strands>(std::move(strands))) {}
+
+StrandArrays HeldStrands::take_all() { return own_ ? std::move(*own_).release() : RawStrands::take_all(); }
+
 uint32_t HeldStrands::first_point(size_t strand) const { return strands_->arrays().first_point[strand]; }
 
 void HeldStrands::append(size_t begin, size_t end, FileWindows&, StrandArrays& a) const {

@@ -28,7 +28,8 @@ const Format kFormats[] = {
     {".usda", open_usd, write_usd, {"*"}, true, true},
     {".usd", open_usd, write_usd, {"*"}, true, true},
     {".usdc", open_usd, nullptr, {"*"}, true, true},
-    {".usdz", open_usd, nullptr, {"*"}, true, true}};
+    {".usdz", open_usd, nullptr, {"*"}, true, true},
+    {".abc", open_alembic, write_alembic, {"*"}, true, true}};
 
 const Format* find_format(const std::filesystem::path& path) {
   const std::string ending = lower_extension(path);
@@ -77,9 +78,7 @@ StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptio
 
 StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options) {
   const std::unique_ptr<RawStrands> raw = open_raw_strands(asset, options);
-  StrandArrays arrays = raw->empty();
-  FileWindows windows(raw->file);
-  raw->append(0, raw->strand_count, windows, arrays);
+  StrandArrays arrays = raw->take_all();
   const float stated = stated_width(*raw, options);
   const float width = stated > 0 ? stated : assumed_width(arrays);
   StrandFile result = finish_strands(std::move(arrays), *raw, width);

@@ -30,7 +30,7 @@ struct StrandRepairs {
 struct StrandFile {
   Strands strands;
   StrandRepairs repairs;
-  std::string format;  ///< "hair", "tfx" or "usd"
+  std::string format;  ///< "hair", "tfx", "usd" or "alembic"
   /// Width in scene units that was chosen because neither the file nor the options state one; else 0.
   float assumed_width = 0;
   /// One line per kind of thing in the file that was not read.
@@ -49,16 +49,16 @@ struct StrandReadOptions {
 };
 
 /// The extensions of the strand formats, for messages.
-inline constexpr const char* kStrandEndings = ".hair, .tfx or .usda";
+inline constexpr const char* kStrandEndings = ".hair, .tfx, .usda or .abc";
 
-/// Returns whether the file name has the extension of a supported strand format: .hair, .tfx, or .usda and
-/// the other extensions of USD.
+/// Returns whether the file name has the extension of a supported strand format: .hair, .tfx, .abc, or .usda
+/// and the other extensions of USD.
 bool is_strand_file(const std::filesystem::path& path);
 
-/// Reads strands. The extension of the file name selects the format: .hair (Cem Yuksel), .tfx (TressFX 4) or
-/// .usda (USD as text, see geom/usd/usd_curves_file.h). The id of a strand is its index in the file. Repairs
-/// or drops degenerate strands, and counts them. Reads the attributes "color" and "transparency" of .hair
-/// files, "opacity" and "uv" of .tfx files, and all primvars of numbers of .usda files.
+/// Reads strands in the format that the ending of the name selects: .hair (Cem Yuksel), .tfx (TressFX 4), USD
+/// (read_usd_curves()) or Alembic (read_alembic_curves()). The id of a strand is its index in the file.
+/// Repairs or drops degenerate strands, and counts them. Reads "color" and "transparency" of .hair files,
+/// "opacity" and "uv" of .tfx files, and all attributes of numbers of .usda and .abc files.
 ///
 /// Throws Error (kInput) with the reason when the file is damaged, is not of this format, or is shorter than
 /// the sizes in its header require. Uses less memory than 1.5 times the memory of the strands.
@@ -72,7 +72,8 @@ StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options
 /// strand: the max width of the strand. Without `widths`, the file has none. Throws Error (kFailed) when the
 /// file cannot be written, or when the format cannot represent the strands, such as strands with different
 /// numbers of points in .tfx. A .usda file also has basis, ids, roots, motion keys at the times 0, 1 and so
-/// on, and all attributes.
+/// on, and all attributes. A .abc file has ids, texture coordinates of roots and all attributes
+/// (geom/alembic/alembic_strands.h).
 void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths = true);
 
 /// Lists what a file of the format that the name selects cannot hold of these strands, for messages: "widths

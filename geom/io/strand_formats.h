@@ -59,6 +59,13 @@ class RawStrands {
   /// Appends the strands [begin, end) to `arrays`, which empty() has made. Their ids are their indices in the
   /// file.
   virtual void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const = 0;
+  /// Returns all strands, as append() does. May move them out, so nothing else can be read afterwards.
+  virtual StrandArrays take_all() {
+    StrandArrays arrays = empty();
+    FileWindows windows(file);
+    append(0, strand_count, windows, arrays);
+    return arrays;
+  }
   /// Memory of the table of first points; 0 if the format needs none.
   virtual size_t bytes() const { return 0; }
 
@@ -88,11 +95,17 @@ class HeldStrands : public RawStrands {
   /// Ids of the strands must be their indices. `root_uv`: whether texture coordinates of roots are passed on.
   HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<const Strands> strands,
               bool root_uv = false);
+  /// Owns the strands, so that take_all() need not copy them. Passes texture coordinates of roots on.
+  HeldStrands(const std::string& name, const char* format_name, StrandArrays strands);
   uint32_t first_point(size_t strand) const override;
   void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const override;
+  StrandArrays take_all() override;
   size_t bytes() const override { return strands_->bytes(); }
 
  private:
+  HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<Strands> own);
+
+  std::shared_ptr<Strands> own_;  // strands_ if they are nobody else's
   const std::shared_ptr<const Strands> strands_;
   const bool root_uv_;
 };
@@ -100,6 +113,8 @@ class HeldStrands : public RawStrands {
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
 /// Opens USD as text. All strands are then in memory.
 std::unique_ptr<RawStrands> open_usd(const std::filesystem::path& path, const StrandReadOptions& options);
+/// Opens Alembic. All strands are then in memory.
+std::unique_ptr<RawStrands> open_alembic(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
 /// Opens strands of the host, or a file. Throws Error (kInput) if the data of the host is not strands.
 std::unique_ptr<RawStrands> open_raw_strands(const AssetPath& asset, const StrandReadOptions& options);
@@ -108,6 +123,7 @@ std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands, bool widths);
 void write_usd(const std::filesystem::path& path, const Strands& strands, bool widths);
+void write_alembic(const std::filesystem::path& path, const Strands& strands, bool widths);
 void write_tfx(const std::filesystem::path& path, const Strands& strands, bool widths);
 /// Attribute of points: 0 where the simulation of a .tfx file fixes the point, else 1.
 inline constexpr const char* kMovable = "movable";

@@ -11,7 +11,7 @@ namespace {
 class UsdStrands final : public HeldStrands {
  public:
   UsdStrands(const std::filesystem::path& path, UsdCurvesFile read)
-      : HeldStrands(path.string(), "usd", std::make_shared<const Strands>(std::move(read.strands)), true) {
+      : HeldStrands(path.string(), "usd", std::move(read.strands)) {
     has_widths = read.has_widths;
     warnings = std::move(read.warnings);
   }

@@ -2,6 +2,7 @@
 #include "geom/usd/usd_curve_batch.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -56,6 +57,7 @@ class CurveJoiner {
   }
 
   StrandArrays join() {
+    reserve();
     for (UsdCurveBatch& batch : batches_) {
       add(batch);
       batch = {};
@@ -86,20 +88,41 @@ class CurveJoiner {
     }
   }
 
+  void reserve() {
+    size_t points = 0, strands = 1;
+    for (const UsdCurveBatch& batch : batches_) {
+      for (const uint32_t n : batch.counts) points += batch.form.points(n, resample_);
+      strands += batch.counts.size();
+    }
+    arrays_.points.reserve(4 * points);
+    arrays_.first_point.reserve(strands);
+    arrays_.ids.reserve(strands - 1);
+    if (has_uv_) arrays_.root_uv.reserve(strands - 1);
+    for (StrandAttribute& attribute : arrays_.attributes) {
+      const size_t count = attribute.frequency == AttributeClass::kPerPoint    ? points
+                           : attribute.frequency == AttributeClass::kPerStrand ? strands - 1
+                                                                               : 1;
+      attribute.values.reserve(count * static_cast<size_t>(attribute.components));
+    }
+  }
+
   void add(const UsdCurveBatch& batch) {
     CurvePlace place;
     std::vector<UsdCurvePoint> points;
+    const bool plain = is_plain(batch);
+    const std::vector<const UsdPrimvar*> sources = sources_of(batch);
     for (const uint32_t n : batch.counts) {
       const uint32_t count = batch.form.points(n, resample_);
       if (arrays_.first_point.back() > UINT32_MAX - count)
         throw Error(ErrorKind::kInput, "the curves have more than 4,294,967,295 points");
-      if (is_plain(batch)) {
+      if (plain) {
         add_plain(batch, place, count);
+        add_plain_attributes(sources, place, count);
       } else {
         points.clear();
         for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
         add_points(batch, place, points);
-        add_attributes(batch, place, points);
+        add_attributes(sources, place, points);
       }
       if (has_uv_) add_uv(batch, place, n);
       if (!batch.ids.empty()) ids_.push_back(batch.ids[place.curve]);
@@ -110,11 +133,56 @@ class CurveJoiner {
     }
   }
 
-  /// Whether points are vertices, and nothing but widths comes with them: most curves of large files.
+  /// Whether points are vertices, and all values of points those of vertices: most curves of large files.
   bool is_plain(const UsdCurveBatch& batch) const {
+    // Other curves than B-splines without phantom vertices have a varying value at each vertex, too.
+    const bool varying = batch.form.native() != CurveBasis::kBSpline;
+    const auto per_vertex = [&](const UsdPrimvar& values) {
+      return values.interpolation == "vertex" || values.values.empty() ||
+             (varying && values.interpolation != "constant" && values.interpolation != "uniform");
+    };
     const bool vertex_widths = batch.widths.values.empty() || batch.widths.interpolation == "vertex";
     return !resample_ && batch.form.wrap != UsdCurveForm::Wrap::kPeriodic && vertex_widths &&
-           arrays_.attributes.empty() && batch.to_world == M44f();
+           batch.to_world == M44f() &&
+           std::all_of(batch.attributes.begin(), batch.attributes.end(), [&](const auto& attribute) {
+             return per_vertex(attribute.second) ||
+                    frequency_of(attribute.second) != AttributeClass::kPerPoint;
+           });
+  }
+
+  /// The values in a batch of each attribute of the result; null where it has none.
+  std::vector<const UsdPrimvar*> sources_of(const UsdCurveBatch& batch) const {
+    std::vector<const UsdPrimvar*> sources;
+    for (const StrandAttribute& to : arrays_.attributes) {
+      sources.push_back(nullptr);
+      for (const auto& [name, primvar] : batch.attributes) {
+        if (name == to.name && !primvar.values.empty()) sources.back() = &primvar;
+      }
+    }
+    return sources;
+  }
+
+  /// Adds the values of a curve whose points are its vertices.
+  void add_plain_attributes(const std::vector<const UsdPrimvar*>& sources, const CurvePlace& place,
+                            uint32_t count) {
+    for (size_t i = 0; i < sources.size(); ++i) {
+      StrandAttribute& to = arrays_.attributes[i];
+      if (to.frequency == AttributeClass::kConstant && !to.values.empty()) continue;
+      const UsdPrimvar* from = sources[i];
+      const auto components = static_cast<size_t>(to.components);
+      const size_t rows = to.frequency == AttributeClass::kPerPoint ? count : 1, before = to.values.size();
+      to.values.resize(before + rows * components);
+      if (!from) continue;
+      const bool once = frequency_of(*from) != AttributeClass::kPerPoint;
+      size_t first = place.first_varying;
+      if (from->interpolation == "constant") first = 0;
+      if (from->interpolation == "uniform") first = place.curve;
+      if (from->interpolation == "vertex") first = place.first_vertex;
+      for (size_t row = 0; row < rows; ++row) {
+        const float* values = &from->values[(first + (once ? 0 : row)) * from->components];
+        std::copy_n(values, from->components, &to.values[before + row * components]);
+      }
+    }
   }
 
   void add_plain(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t count) {
@@ -148,14 +216,12 @@ class CurveJoiner {
     }
   }
 
-  void add_attributes(const UsdCurveBatch& batch, const CurvePlace& place,
+  void add_attributes(const std::vector<const UsdPrimvar*>& sources, const CurvePlace& place,
                       const std::vector<UsdCurvePoint>& points) {
     std::vector<float> value;
-    for (StrandAttribute& to : arrays_.attributes) {
-      const UsdPrimvar* from = nullptr;
-      for (const auto& [name, primvar] : batch.attributes) {
-        if (name == to.name) from = &primvar;
-      }
+    for (size_t index = 0; index < sources.size(); ++index) {
+      StrandAttribute& to = arrays_.attributes[index];
+      const UsdPrimvar* from = sources[index];
       const bool once = to.frequency == AttributeClass::kConstant;
       if (once && !to.values.empty()) continue;
       const size_t count = to.frequency == AttributeClass::kPerPoint ? points.size() : 1;
@@ -163,8 +229,7 @@ class CurveJoiner {
       for (size_t i = 0; i < count; ++i) {
         value.assign(std::max(components, from ? from->components : 0), 0.0f);
         // Curves without points still have uniform values.
-        if (from && !from->values.empty())
-          value_at(*from, place, points.empty() ? UsdCurvePoint() : points[i], value.data());
+        if (from) value_at(*from, place, points.empty() ? UsdCurvePoint() : points[i], value.data());
         to.values.insert(to.values.end(), value.begin(), value.begin() + static_cast<ptrdiff_t>(components));
       }
     }
@@ -229,6 +294,19 @@ class CurveJoiner {
 
 StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches) {
   return CurveJoiner(std::move(batches)).join();
+}
+
+int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches) {
+  std::map<std::string, size_t> components;
+  size_t points = 0;
+  for (const UsdCurveBatch& batch : batches) {
+    points += batch.points.size() / 3 + batch.counts.size();
+    for (const auto& [name, primvar] : batch.attributes)
+      components[name] = std::max(components[name], primvar.components);
+  }
+  size_t floats = 0;
+  for (const auto& [name, count] : components) floats += count * points;
+  return static_cast<int64_t>(floats * sizeof(float));
 }
 
 }  // namespace pelage

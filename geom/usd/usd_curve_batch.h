@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,5 +30,8 @@ struct UsdCurveBatch {
 /// others. If all curves have different ids, sorts them by their ids. Ids of the result are indices. Frees
 /// each batch after its use.
 StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches);
+
+/// Returns the memory of the attributes of all joined curves, of which each batch may have others.
+int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches);
 
 }  // namespace pelage

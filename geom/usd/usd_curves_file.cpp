@@ -2,7 +2,6 @@
 #include "geom/usd/usd_curves_file.h"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -47,7 +46,8 @@ class UsdCurvesReader {
 
   UsdCurvesFile finish(const std::filesystem::path& path) {
     if (batches_.empty()) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no curves");
-    if (batches_.size() > 1 && bytes_ + attribute_bytes() > options_.max_bytes) refuse({path.string()});
+    if (batches_.size() > 1 && bytes_ + joined_attribute_bytes(batches_) > options_.max_bytes)
+      refuse({path.string()});
     UsdCurvesFile file;
     const bool unwidthed = std::any_of(batches_.begin(), batches_.end(),
                                        [](const UsdCurveBatch& b) { return b.widths.values.empty(); });
@@ -84,20 +84,6 @@ class UsdCurvesReader {
     throw Error(ErrorKind::kMemory, place,
                 fmt::format("reading the strands needs more than the free memory, {}",
                             memory_text(options_.max_bytes)));
-  }
-
-  /// Memory of the attributes of all strands together, of which each prim may have others.
-  int64_t attribute_bytes() const {
-    std::map<std::string, size_t> components;
-    size_t points = 0;
-    for (const UsdCurveBatch& batch : batches_) {
-      points += batch.points.size() / 3 + batch.counts.size();
-      for (const auto& [name, primvar] : batch.attributes)
-        components[name] = std::max(components[name], primvar.components);
-    }
-    size_t floats = 0;
-    for (const auto& [name, count] : components) floats += count * points;
-    return static_cast<int64_t>(floats * sizeof(float));
   }
 
   void add_vertices(const UsdPrim& prim, UsdCurveBatch& batch) {
@@ -138,7 +124,8 @@ class UsdCurvesReader {
     const std::string name = prim.find("primvars:widths") ? "primvars:widths" : "widths";
     std::optional<UsdPrimvar> widths = usd_primvar(prim, name, "vertex", sizes_, warnings_);
     if (!widths || widths->components != 1 || widths->values.empty()) return;
-    for (float& width : widths->values) width *= 0.5f * length_factor(batch.to_world);
+    const float factor = 0.5f * length_factor(batch.to_world);
+    for (float& width : widths->values) width *= factor;
     batch.widths = std::move(*widths);
   }
 

@@ -132,13 +132,12 @@ const Schema<GroomParams>& GroomParams::schema() {
     add_preset_keys(s);
     s.key("skin", &GroomParams::skin,
           {.help = "Skin on which the coat grows", .default_text = "none, if strands_file is given"});
-    s.key(
-        "strands_file", &GroomParams::strands_file,
-        {.help =
-             "Strand file (.hair, .tfx, .usda) in the rest space of the skin. If the groom has a skin, each "
-             "strand follows the point of the skin nearest to its root and keeps its distance from "
-             "that point; see `attach`",
-         .default_text = "none"});
+    s.key("strands_file", &GroomParams::strands_file,
+          {.help = "Strand file (.hair, .tfx, .usda, .abc) in the rest space of the skin. If the groom has a "
+                   "skin, each "
+                   "strand follows the point of the skin nearest to its root and keeps its distance from "
+                   "that point; see `attach`",
+           .default_text = "none"});
     s.key("transform", &GroomParams::transform,
           {.help = "From the coordinates of strands_file to the rest space of the skin",
            .default_text = "as in the file"});

@@ -99,7 +99,7 @@ const Schema<GuidesParams>& GuidesParams::schema() {
       - guides: {file: guides.hair, neighbours: 4})");
     s.set_picture("Left: straight strands. Right: strands shaped by the guides of a file.");
     s.key("file", &GuidesParams::file,
-          {.help = "Guide file (.hair, .tfx, .usda) in the rest space of the skin", .required = true});
+          {.help = "Guide file (.hair, .tfx, .usda, .abc) in the rest space of the skin", .required = true});
     s.key("basis", &GuidesParams::basis,
           {.help = "How control points of the file define curves", .default_text = "the basis in the file"});
     s.key("scale", &GuidesParams::scale,

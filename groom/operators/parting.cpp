@@ -53,11 +53,13 @@ const Schema<PartingParams>& PartingParams::schema() {
                "Points that the line joins, in the rest space of the skin. The line is moved to the nearest "
                "points of the skin. It is closed if its last point is its first",
            .default_text = "none; `file` has the lines"});
-    s.key("file", &PartingParams::file,
-          {.help = "Strand file (.hair, .tfx, .usda) in the rest space of the skin, instead of `points`: the "
-                   "control "
-                   "points of each strand are a line",
-           .default_text = "none; `points` are the line"});
+    s.key(
+        "file", &PartingParams::file,
+        {.help =
+             "Strand file (.hair, .tfx, .usda, .abc) in the rest space of the skin, instead of `points`: the "
+             "control "
+             "points of each strand are a line",
+         .default_text = "none; `points` are the line"});
     s.key("width", &PartingParams::width,
           {.unit = "scene units",
            .help = "Distance from the line within which strands turn away from it: fully up to half of this "

@@ -169,7 +169,7 @@ const Schema<MeshLightParams>& MeshLightParams::schema() {
     s.set_example(R"(lights:
   tube: {type: mesh, file: tube.obj, transform: {translate: [0, 3, 0]}, power: 200})");
     s.key("file", &MeshLightParams::file,
-          {.help = "OBJ or USD (.usda) file; faces are flat", .required = true});
+          {.help = "OBJ, USD (.usda) or Alembic (.abc) file; faces are flat", .required = true});
     s.key("transform", &MeshLightParams::transform,
           {.help = "Transform from the coordinates of the file to scene units and axes",
            .default_text = "none"});

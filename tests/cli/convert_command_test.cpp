@@ -103,24 +103,35 @@ TEST_F(ConvertLossesTest, WarnOnceOfAllThatIsLost) {
   EXPECT_NE(several.find("texture coordinates of roots, the attribute uv\n"), std::string::npos) << several;
 }
 
-TEST_F(ConvertLossesTest, UsdHoldsEverythingBothWays) {
+TEST_F(ConvertLossesTest, UsdAndAlembicHoldEverythingBothWays) {
   StrandArrays a = three_strands().arrays();
   a.points[3] = 0.02f;
   a.attributes.push_back({"color", AttributeClass::kPerPoint, 3, std::vector<float>(36, 0.3f)});
   a.attributes.push_back({"transparency", AttributeClass::kPerPoint, 1, std::vector<float>(12, 0.7f)});
   write_strands(folder_.path() / "a.hair", Strands(a));
-  EXPECT_EQ(errors("a.hair", "b.usda"), "");
-  EXPECT_EQ(errors("b.usda", "c.hair"), "");
-  EXPECT_EQ(read_file(folder_.path() / "c.hair"), [&] {
-    errors("a.hair", "d.hair");
-    return read_file(folder_.path() / "d.hair");
-  }());
-  options_.input = (folder_.path() / "b.usda").string();
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(run_validate(options_), 0);
-  const std::string said = testing::internal::GetCapturedStdout();
-  EXPECT_NE(said.find("2 strands of 8 points"), std::string::npos) << said;
-  EXPECT_NE(said.find("no problems"), std::string::npos) << said;
+  errors("a.hair", "d.hair");
+  for (const char* name : {"b.usda", "b.abc"}) {
+    EXPECT_EQ(errors("a.hair", name), "");
+    EXPECT_EQ(errors(name, "c.hair"), "");
+    EXPECT_EQ(read_file(folder_.path() / "c.hair"), read_file(folder_.path() / "d.hair")) << name;
+    options_.input = (folder_.path() / name).string();
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_validate(options_), 0);
+    const std::string said = testing::internal::GetCapturedStdout();
+    EXPECT_NE(said.find("2 strands of "), std::string::npos) << said;
+    EXPECT_NE(said.find("no problems"), std::string::npos) << said;
+  }
+}
+
+TEST_F(ConvertLossesTest, FilesForUnrealHaveItsAxes) {
+  options_.host = AlembicHost::kUnreal;
+  EXPECT_EQ(errors("a.hair", "b.abc"), "");
+  const Strands strands = read_strands(folder_.path() / "b.abc").strands;
+  EXPECT_EQ(strands.basis(), CurveBasis::kLinear);
+  ASSERT_EQ(strands.strand_count(), 2u);
+  EXPECT_EQ(strands.point(7), V3f(2, 0, 0.75f));
+  options_.output = (folder_.path() / "b.usda").string();
+  EXPECT_THROW(run_convert(options_), Error);
 }
 
 TEST_F(ConvertCommandTest, ValidateNamesWhatHostsStumbleOver) {
@@ -148,7 +159,7 @@ TEST_F(ConvertCommandTest, RefusesWhatIsNoStrandFile) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kArguments);
-    EXPECT_NE(std::string(error.what()).find("written as .hair, .tfx or .usda"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("written as .hair, .tfx, .usda or .abc"), std::string::npos);
   }
 }
 

@@ -33,7 +33,8 @@ def Mesh "box"
 }
 """)
         self.run_pelage("new", "box.usda", "-o", "fur.yaml", "--strands", "10")
-        self.run_pelage("grow", "fur.yaml", "-o", "a.hair", "--quiet")
+        self.run_pelage("grow", "fur.yaml", "-o", "a.abc", "--quiet")
+        self.assertIn("strands (alembic)", self.run_pelage("info", "a.abc")[0])
 
     def test_axes_can_be_chosen(self):
         self.assertIn("faces -x, with z up", self.new("--facing", "-x", "--up", "z")[0])
@@ -58,7 +59,7 @@ def Mesh "box"
         (self.path / "bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
         self.assertIn("bad.obj:2:", self.run_pelage("new", "bad.obj", "-o", "fur.yaml", code=3)[1])
         self.assertIn("named .yaml", self.run_pelage("new", "cube.obj", "-o", "fur.txt", code=2)[1])
-        self.assertIn("expected an .obj or .usda mesh", self.run_pelage("new", "a.ply", "-o", "fur.yaml", code=3)[1])
+        self.assertIn("expected an .obj, .usda or .abc mesh", self.run_pelage("new", "a.ply", "-o", "fur.yaml", code=3)[1])
         self.assertFalse((self.path / "fur.yaml").exists())
 
     def test_info_suggests_what_new_would_do(self):

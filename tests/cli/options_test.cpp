@@ -100,6 +100,8 @@ TEST(Options, OfTheOtherCommands) {
   EXPECT_EQ(parsed({"info", "a.tfx", "--basis", "linear"}).basis, CurveBasis::kLinear);
   EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx", "--default-width", "0.01"}).default_width, 0.01f);
   EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx"}).output, "b.tfx");
+  EXPECT_EQ(parsed({"convert", "a.hair", "b.abc"}).host, AlembicHost::kAny);
+  EXPECT_EQ(parsed({"convert", "a.hair", "b.abc", "--for", "unreal"}).host, AlembicHost::kUnreal);
   EXPECT_EQ(parsed({"manual", "curl"}).section, "curl");
   EXPECT_EQ(parsed({"manual", "map", "field"}).section, "map field");
   EXPECT_TRUE(parsed({"manual", "--markdown"}).markdown);

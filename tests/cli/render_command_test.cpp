@@ -206,7 +206,7 @@ TEST_F(RenderCommandTest, AStrandFileOfAnUnknownKindIsReportedWhereItIsNamed) {
     } catch (const Error& error) {
       const Problem& problem = error.problems().at(0);
       EXPECT_EQ(to_string(problem.position), o.input + place);
-      EXPECT_NE(problem.message.find(".hair, .tfx or .usda"), std::string::npos) << problem.message;
+      EXPECT_NE(problem.message.find(".hair, .tfx, .usda or .abc"), std::string::npos) << problem.message;
     }
   }
 }

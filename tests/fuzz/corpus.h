@@ -30,5 +30,6 @@ std::vector<std::string> fur_corpus();
 std::vector<std::string> chunks_corpus();
 std::vector<std::string> rib_corpus();
 std::vector<std::string> usd_corpus();
+std::vector<std::string> alembic_corpus();
 
 }  // namespace pelage

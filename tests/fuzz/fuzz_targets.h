@@ -43,6 +43,8 @@ void fuzz_rib(std::span<const uint8_t> bytes);
 
 /// A USD file as text: its strands, its mesh, and what is found in it.
 void fuzz_usd(std::span<const uint8_t> bytes);
+/// An Alembic file, in the same ways.
+void fuzz_alembic(std::span<const uint8_t> bytes);
 
 /// A file of this process that holds `bytes`; its name ends in `ending`.
 std::filesystem::path fuzz_file(std::span<const uint8_t> bytes, const std::string& ending);

@@ -41,7 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
                                          Replay{"fur", fuzz_fur, fur_corpus, 4000, 1 << 20},
                                          Replay{"chunks", fuzz_chunks, chunks_corpus, 400, 16 << 20},
                                          Replay{"rib", fuzz_rib, rib_corpus, 400, 64 << 20},
-                                         Replay{"usd", fuzz_usd, usd_corpus, 400, 64 << 20}),
+                                         Replay{"usd", fuzz_usd, usd_corpus, 400, 64 << 20},
+                                         Replay{"alembic", fuzz_alembic, alembic_corpus, 400, 64 << 20}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Fuzz, SurvivesItsCorpus) {

@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "geom/alembic/alembic_validation.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
@@ -36,20 +37,22 @@ void feed_mesh(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace
-
-void fuzz_usd(std::span<const uint8_t> bytes) {
-  const std::filesystem::path path = fuzz_file(bytes, ".usda");
+void feed_scene(const std::filesystem::path& path, UsdFindings (*validate)(const std::filesystem::path&)) {
   for (const int reader : {0, 1, 2}) {
     try {
       if (reader == 0) feed_strands(path);
       if (reader == 1) feed_mesh(path);
-      if (reader == 2) validate_usd(path);
+      if (reader == 2) validate(path);
     } catch (const Error& error) {
       PELAGE_CHECK(error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kMemory);
       PELAGE_CHECK(error.problems().size() == 1);
     }
   }
 }
+
+}  // namespace
+
+void fuzz_usd(std::span<const uint8_t> bytes) { feed_scene(fuzz_file(bytes, ".usda"), validate_usd); }
+void fuzz_alembic(std::span<const uint8_t> bytes) { feed_scene(fuzz_file(bytes, ".abc"), validate_alembic); }
 
 }  // namespace pelage

@@ -91,6 +91,34 @@ TEST(UsdCurves, RoundTripKeepsEverything) {
   }
 }
 
+TEST(UsdCurves, PlainCurvesHaveTheValuesOfTransformedOnes) {
+  // Curves that are moved take the way of resampled ones.
+  const auto with = [&](const std::string& basis, const std::string& wrap, float shift) {
+    const std::string values =
+        "\n color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, 1)] "
+        "(interpolation = "
+        "\"vertex\")\n float[] primvars:all = [3] (interpolation = \"constant\")\n float2[] primvars:each = "
+        "[(5, 6)] (interpolation = \"uniform\")\n float[] primvars:between = " +
+        std::string(wrap == "pinned" ? "[1, 2, 3, 4, 5]" : "[1, 2, 3]") + " (interpolation = \"varying\")";
+    return read(fmt::format("def Xform \"x\" {{ double3 xformOp:translate = ({}, 0, 0)\n uniform token[] "
+                            "xformOpOrder = "
+                            "[\"xformOp:translate\"]\n{}}}",
+                            shift, zigzag("cubic", basis, wrap, 5, values)))
+        .strands;
+  };
+  for (const auto& [basis, wrap] :
+       {std::pair{"bspline", "pinned"}, {"bspline", "nonperiodic"}, {"catmullRom", "pinned"}}) {
+    const StrandArrays plain = with(basis, wrap, 0), moved = with(basis, wrap, 8);
+    EXPECT_EQ(plain.points[4], 1);
+    EXPECT_EQ(moved.points[4], 9);
+    ASSERT_EQ(plain.attributes.size(), 4u);
+    for (size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(plain.attributes[i].frequency, moved.attributes[i].frequency);
+      EXPECT_EQ(plain.attributes[i].values, moved.attributes[i].values) << plain.attributes[i].name << basis;
+    }
+  }
+}
+
 TEST(UsdCurves, StrandsAreSortedByTheirIds) {
   const TemporaryFolder folder;
   StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);

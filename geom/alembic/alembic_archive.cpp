@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/alembic/alembic_archive.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace pelage {
+namespace {
+
+// Children of the first group: version of the layout, version of the library, the top object, metadata of
+// the archive, time samplings, and indexed metadata.
+constexpr uint64_t kLayoutChild = 0, kTopChild = 2, kMetadataChild = 3, kIndexedChild = 5;
+constexpr size_t kSampleKey = 16, kHeaderHashes = 32;
+constexpr uint32_t kInlineMetadata = 255;
+
+/// Reads headers from a block of data.
+class AlembicHeaderReader {
+ public:
+  AlembicHeaderReader(const OgawaFile& file, std::span<const std::byte> bytes, std::string_view what)
+      : file_(file), bytes_(bytes), what_(what) {}
+
+  bool at_end() const { return next_ == bytes_.size(); }
+  /// A number of 1, 2 or 4 bytes.
+  uint32_t number(size_t size) {
+    uint32_t value = 0;
+    std::memcpy(&value, take(size).data(), size);
+    return value;
+  }
+  std::string_view text(size_t size) {
+    const std::span<const std::byte> taken = take(size);
+    return {reinterpret_cast<const char*>(taken.data()), size};
+  }
+  [[noreturn]] void fail(const std::string& why) const {
+    file_.fail(fmt::format("{}: {}", what_, why), bytes_);
+  }
+
+ private:
+  std::span<const std::byte> take(size_t size) {
+    if (size > bytes_.size() - next_) fail("they end within one");
+    next_ += size;
+    return bytes_.subspan(next_ - size, size);
+  }
+
+  const OgawaFile& file_;
+  const std::span<const std::byte> bytes_;
+  const std::string_view what_;
+  size_t next_ = 0;
+};
+
+/// Bits of the first number of a property's header.
+struct PropertyBits {
+  uint32_t bits;
+  uint32_t kind() const { return bits & 3; }
+  size_t number_bytes() const { return size_t(1) << (bits >> 2 & 3); }
+  uint32_t pod() const { return bits >> 4 & 15; }
+  bool has_time() const { return bits & 0x100; }
+  bool has_changes() const { return bits & 0x200; }
+  bool is_constant() const { return bits & 0x800; }
+  uint32_t extent() const { return bits >> 12 & 255; }
+  uint32_t metadata() const { return bits >> 20 & 255; }
+};
+
+/// Reads how many samples a property has in the file. Those before the first change and after the last one
+/// are stored once each.
+uint32_t stored_samples(const PropertyBits& info, AlembicHeaderReader& in) {
+  const uint32_t samples = in.number(info.number_bytes());
+  if (!info.has_changes()) return info.is_constant() ? std::min(samples, 1u) : samples;
+  const uint32_t first = in.number(info.number_bytes()), last = in.number(info.number_bytes());
+  if (first > last || last > samples) in.fail("samples that do not fit their number");
+  return std::min(samples, last == 0 ? 1 : last - first + 2);
+}
+
+}  // namespace
+
+size_t alembic_pod_bytes(AlembicPod pod) {
+  constexpr size_t kBytes[] = {1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 0, 0};
+  return kBytes[static_cast<size_t>(pod)];
+}
+
+const AlembicProperty* AlembicCompound::find(std::string_view name) const {
+  const auto found = std::find_if(properties.begin(), properties.end(),
+                                  [&](const AlembicProperty& property) { return property.name == name; });
+  return found == properties.end() ? nullptr : &*found;
+}
+
+std::string_view alembic_metadata(std::string_view metadata, std::string_view key) {
+  while (!metadata.empty()) {
+    const std::string_view pair = metadata.substr(0, metadata.find(';'));
+    if (pair.size() > key.size() && pair.starts_with(key) && pair[key.size()] == '=')
+      return pair.substr(key.size() + 1);
+    metadata.remove_prefix(std::min(metadata.size(), pair.size() + 1));
+  }
+  return {};
+}
+
+AlembicArchive::AlembicArchive(const std::filesystem::path& path) : file_(path) {
+  const OgawaGroup root = file_.root();
+  const std::span<const std::byte> layout = file_.data(root, kLayoutChild);
+  int32_t version = -1;
+  if (layout.size() == sizeof version) std::memcpy(&version, layout.data(), sizeof version);
+  if (version != 0) file_.fail("is of an unknown version of Alembic", root.position);
+  const std::span<const std::byte> metadata = file_.data(root, kMetadataChild);
+  top_.metadata = {reinterpret_cast<const char*>(metadata.data()), metadata.size()};
+  top_.group = file_.group(root, kTopChild);
+  read_indexed_metadata(file_.data(root, kIndexedChild));
+}
+
+void AlembicArchive::read_indexed_metadata(std::span<const std::byte> bytes) {
+  metadata_.emplace_back();  // index 0: none
+  AlembicHeaderReader in(file_, bytes, "shared metadata");
+  while (!in.at_end() && metadata_.size() < kInlineMetadata) metadata_.push_back(in.text(in.number(1)));
+}
+
+std::vector<AlembicObject> AlembicArchive::children(const AlembicObject& object) const {
+  std::vector<AlembicObject> children;
+  const uint64_t last = object.group.count - 1;
+  if (object.group.count == 0 || file_.is_group(object.group, last)) return children;
+  const std::span<const std::byte> bytes = file_.data(object.group, last);
+  if (bytes.size() <= kHeaderHashes) return children;
+  AlembicHeaderReader in(file_, bytes.first(bytes.size() - kHeaderHashes), "headers of objects");
+  while (!in.at_end()) {
+    AlembicObject child;
+    child.name = in.text(in.number(4));
+    if (child.name.empty()) in.fail("an object has no name");
+    const uint32_t index = in.number(1);
+    if (index == kInlineMetadata) {
+      child.metadata = in.text(in.number(4));
+    } else if (index < metadata_.size()) {
+      child.metadata = metadata_[index];
+    } else {
+      in.fail("metadata with an unknown index");
+    }
+    child.group = file_.group(object.group, children.size() + 1);
+    children.push_back(child);
+  }
+  return children;
+}
+
+AlembicCompound AlembicArchive::properties(const AlembicObject& object) const {
+  if (object.group.count == 0 || !file_.is_group(object.group, 0)) return {};
+  return compound_of(file_.group(object.group, 0));
+}
+
+AlembicCompound AlembicArchive::compound(const AlembicProperty& property) const {
+  return property.kind == AlembicProperty::Kind::kCompound ? compound_of(property.group) : AlembicCompound();
+}
+
+AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
+  AlembicCompound compound;
+  if (group.count == 0 || file_.is_group(group, group.count - 1)) return compound;
+  AlembicHeaderReader in(file_, file_.data(group, group.count - 1), "headers of properties");
+  while (!in.at_end()) {
+    AlembicProperty property;
+    const PropertyBits info{in.number(4)};
+    const size_t bytes = info.number_bytes();
+    if (bytes > 4) in.fail("numbers of an unknown size");
+    if (info.kind() != 0) {
+      property.kind = info.kind() == 1 ? AlembicProperty::Kind::kScalar : AlembicProperty::Kind::kArray;
+      if (info.pod() > static_cast<uint32_t>(AlembicPod::kWideText)) in.fail("an unknown type of numbers");
+      property.pod = static_cast<AlembicPod>(info.pod());
+      property.extent = info.extent();
+      if (property.extent == 0) in.fail("elements without numbers");
+      property.stored = stored_samples(info, in);
+      if (info.has_time()) in.number(bytes);
+    }
+    property.name = in.text(in.number(bytes));
+    if (property.name.empty()) in.fail("a property has no name");
+    if (info.metadata() == kInlineMetadata) {
+      property.metadata = in.text(in.number(bytes));
+    } else if (info.metadata() < metadata_.size()) {
+      property.metadata = metadata_[info.metadata()];
+    } else {
+      in.fail("metadata with an unknown index");
+    }
+    property.group = file_.group(group, compound.properties.size());
+    compound.properties.push_back(property);
+  }
+  return compound;
+}
+
+std::span<const std::byte> AlembicArchive::sample(const AlembicProperty& property, uint32_t index) const {
+  if (index >= property.stored || property.kind == AlembicProperty::Kind::kCompound) return {};
+  const bool array = property.kind == AlembicProperty::Kind::kArray;  // which have sizes after each sample
+  const std::span<const std::byte> bytes = file_.data(property.group, array ? 2 * uint64_t{index} : index);
+  if (bytes.empty()) return bytes;
+  if (bytes.size() < kSampleKey) file_.fail("a sample is shorter than its key", bytes);
+  return bytes.subspan(kSampleKey);
+}
+
+}  // namespace pelage

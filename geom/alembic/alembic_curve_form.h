@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "geom/alembic/alembic_scene.h"
+#include "geom/usd/usd_curve_form.h"
+
+namespace pelage {
+
+/// How curves of Alembic are read.
+struct AlembicCurveForm {
+  UsdCurveForm form;
+  /// Whether the first and last vertex of each curve are phantoms, which are not points of ours.
+  bool phantom_ends = false;
+};
+
+/// Returns the form of the curves of an object. A B-spline whose knots begin with three equal ones passes
+/// through its first vertex, so it is read as pinned. `warnings`: receives what is approximated. Empty for
+/// curves that cannot be read: those with the bases Hermite and power. Throws Error
+/// (kInput) with the path of the object when the type or basis is missing or unknown.
+std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings);
+
+}  // namespace pelage

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "geom/alembic/alembic_host.h"
+#include "geom/alembic/alembic_writer.h"
+#include "geom/strands.h"
+
+namespace pelage {
+
+struct AlembicCurvesFacts {
+  bool widths = true;  ///< whether the strands have widths
+  std::string group;   ///< parameter groom_group_name; empty: none
+  AlembicHost host = AlembicHost::kAny;
+};
+
+/// Writes strands, at motion key 0, as a Curves object. Pinned B-splines and Catmull-Rom curves get their
+/// phantom vertices at both ends, so that they are the same curves in every program that follows AbcGeom;
+/// read_alembic_curves() removes them. Widths are "vtx", the values of phantom widths at least 0. Ids become
+/// groom_id, root texture coordinates uv and groom_root_uv, both uniform, "color" becomes groom_color, and
+/// "guide" groom_guide; all other attributes are parameters of their names.
+void add_alembic_curves(AlembicWriter& writer, AlembicObjectWriter& parent, const std::string& name,
+                        const Strands& strands, const AlembicCurvesFacts& facts);
+
+/// Returns a transform object that does nothing, with the parameters that identify Unreal's groom schema:
+/// groom_version_major 1, groom_version_minor 4 and groom_tool.
+AlembicObjectWriter alembic_groom(AlembicWriter& writer, const std::string& name);
+
+}  // namespace pelage

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/alembic/alembic_mesh_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "geom/alembic/alembic_param.h"
+#include "geom/alembic/alembic_values.h"
+#include "geom/io/mesh_joiner.h"
+
+namespace pelage {
+namespace {
+
+constexpr std::string_view kPolyMesh = "AbcGeom_PolyMesh_", kSubdivision = "AbcGeom_SubD_",
+                           kFaceSet = "AbcGeom_FaceSet_";
+// Bytes of memory per number of a mesh: in the part and in the cage, which grows by doubling.
+constexpr size_t kMeshBytesPerNumber = 16;
+
+class AlembicMeshReader {
+ public:
+  AlembicMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
+      : mesh_(mesh), joiner_(mesh), place_{path.string(), 0, 0}, warnings_(warnings) {}
+
+  static bool is_mesh(const AlembicNode& node) {
+    return node.schema.starts_with(kPolyMesh) || node.schema.starts_with(kSubdivision);
+  }
+
+  /// Numbers of a mesh, for the charge of memory before it is read.
+  static size_t numbers(const AlembicNode& node) {
+    size_t count = 0;
+    for (const AlembicProperty& property : node.geometry.properties)
+      count += alembic_param_count(node.archive, property);
+    return count;
+  }
+
+  void add(const AlembicNode& node) {
+    if (node.schema.starts_with("AbcGeom_NuPatch") || node.schema.starts_with("AbcGeom_Points"))
+      warnings_.add("surfaces of NURBS and points are skipped", place_);
+    if (!is_mesh(node)) return;
+    MeshPart part;
+    part.name = node.path.substr(node.path.rfind('/') + 1);
+    add_points(node, part);
+    part.face_vertices = indices(node, ".faceIndices", true);
+    part.face_sizes = indices(node, ".faceCounts", true);
+    add_tags(node, part);
+    if (const std::string problem = part.problem(); !problem.empty()) node.fail(problem);
+    add_params(node, part);
+    part.reversed = !(node.to_world.determinant() < 0);  // corners are clockwise in the file
+    joiner_.add(part);
+    add_groups(node, part);
+    set_boundary(node);
+  }
+
+  void finish() { joiner_.finish(); }
+
+ private:
+  void add_points(const AlembicNode& node, MeshPart& part) {
+    const AlembicProperty* points = node.geometry.find("P");
+    if (!points || points->extent != 3) node.fail("the mesh has no points (P)");
+    if (points->stored > 1) warnings_.add("time samples after the first are skipped", place_);
+    const std::vector<float> numbers = alembic_floats(node.archive, *points);
+    part.points.reserve(numbers.size() / 3);
+    for (size_t i = 0; i + 2 < numbers.size(); i += 3)
+      part.points.push_back(V3f(numbers[i], numbers[i + 1], numbers[i + 2]) * node.to_world);
+  }
+
+  /// Negative numbers become large ones, which the part reports as indices out of range.
+  static std::vector<uint32_t> indices(const AlembicNode& node, const char* name, bool required = false) {
+    const AlembicProperty* property = node.geometry.find(name);
+    if (!property && required) node.fail(fmt::format("the mesh has no {}", name));
+    std::vector<uint32_t> result;
+    if (!property) return result;
+    const std::vector<int64_t> numbers = alembic_integers(node.archive, *property);
+    result.reserve(numbers.size());
+    for (const int64_t number : numbers)
+      result.push_back(number < 0 || number > UINT32_MAX ? UINT32_MAX : static_cast<uint32_t>(number));
+    return result;
+  }
+  static std::vector<float> floats(const AlembicNode& node, const char* name) {
+    const AlembicProperty* property = node.geometry.find(name);
+    return property ? alembic_floats(node.archive, *property) : std::vector<float>();
+  }
+
+  static void add_tags(const AlembicNode& node, MeshPart& part) {
+    part.holes = indices(node, ".holes");
+    part.corners = indices(node, ".cornerIndices");
+    part.corner_sharpness = floats(node, ".cornerSharpnesses");
+    part.crease_vertices = indices(node, ".creaseIndices");
+    part.crease_lengths = indices(node, ".creaseLengths");
+    part.crease_sharpness = floats(node, ".creaseSharpnesses");
+  }
+
+  void add_params(const AlembicNode& node, MeshPart& part) {
+    if (const AlembicProperty* uv = node.geometry.find("uv")) {
+      part.uv = alembic_param(node, *uv, part.counts(), warnings_);
+      if (part.uv && part.uv->components != 2) part.uv.reset();
+    }
+    const AlembicProperty* arbitrary = node.geometry.find(".arbGeomParams");
+    if (!arbitrary) return;
+    const AlembicCompound params = node.archive.compound(*arbitrary);
+    for (const char* name : {"Cd", "color"}) {
+      const AlembicProperty* colors = params.find(name);
+      if (colors && !part.colors) part.colors = alembic_param(node, *colors, part.counts(), warnings_);
+    }
+  }
+
+  /// Face sets are objects within the mesh.
+  void add_groups(const AlembicNode& node, const MeshPart& part) {
+    for (const AlembicObject& child : node.archive.children(node.object)) {
+      if (!alembic_metadata(child.metadata, "schema").starts_with(kFaceSet)) continue;
+      const AlembicCompound properties = node.archive.properties(child);
+      const AlembicProperty* set = properties.find(".faceset");
+      if (!set) continue;
+      const AlembicCompound compound = node.archive.compound(*set);
+      const AlembicProperty* faces = compound.find(".faces");
+      if (!faces) continue;
+      std::vector<uint32_t> group;
+      for (const int64_t face : alembic_integers(node.archive, *faces)) {
+        if (face < 0 || static_cast<size_t>(face) >= part.face_sizes.size()) {
+          node.fail(fmt::format("the face set '{}' has the face {}; there are {}", child.name, face,
+                                part.face_sizes.size()));
+        }
+        group.push_back(static_cast<uint32_t>(face));
+      }
+      joiner_.add_group(std::string(child.name), group);
+    }
+  }
+
+  /// The rule of the first mesh. Many programs state none, or 0, for meshes that they draw with sharp corners
+  /// and with the faces at their boundaries, which the rule 0 would drop.
+  void set_boundary(const AlembicNode& node) {
+    if (mesh_.boundary_tag >= 0) return;
+    mesh_.boundary_tag = 1;
+    const AlembicProperty* rule = node.geometry.find(".interpolateBoundary");
+    if (!rule || !alembic_is_integer(*rule)) return;
+    const std::vector<int64_t> stated = alembic_integers(node.archive, *rule);
+    if (!stated.empty()) mesh_.boundary_tag = stated[0] == 2 ? 2 : 1;
+  }
+
+  ControlMesh& mesh_;
+  MeshJoiner joiner_;
+  const SourcePosition place_;
+  UsdWarnings& warnings_;
+};
+
+}  // namespace
+
+UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshReserve& reserve) {
+  UsdWarnings warnings;
+  AlembicScene scene(path, warnings);
+  UsdMeshFile file;
+  AlembicMeshReader reader(file.mesh, path, warnings);
+  scene.visit([&](const AlembicNode& node) {
+    if (reserve) {
+      const size_t numbers = AlembicMeshReader::is_mesh(node) ? AlembicMeshReader::numbers(node) : 0;
+      reserve(static_cast<int64_t>(file.mesh.bytes() + kMeshBytesPerNumber * numbers));
+    }
+    reader.add(node);
+  });
+  if (file.mesh.face_count() == 0) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no mesh");
+  reader.finish();
+  file.warnings = warnings.lines();
+  return file;
+}
+
+}  // namespace pelage

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/alembic/alembic_validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/visible_text.h"
+#include "geom/alembic/alembic_curve_form.h"
+#include "geom/alembic/alembic_param.h"
+#include "geom/alembic/alembic_values.h"
+
+namespace pelage {
+namespace {
+
+/// Some programs compute bounds in single precision.
+constexpr double kBoundsSlack = 1e-4;
+
+class AlembicCurvesValidator {
+ public:
+  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings)
+      : node_(node), warnings_(warnings), findings_(findings) {}
+
+  void check() {
+    ++findings_.curves;
+    const std::optional<AlembicCurveForm> form = alembic_curve_form(node_, warnings_);
+    if (!form) return problem("its basis is not supported");
+    const AlembicProperty *counts = node_.geometry.find("nVertices"), *points = node_.geometry.find("P");
+    if (!counts || !points || counts->stored == 0 || points->stored == 0)
+      return problem("it has no nVertices or no P");
+    check_counts(*counts, form->form);
+    check_points(*points);
+    check_widths();
+    check_bounds();
+    const AlembicProperty* arbitrary = node_.geometry.find(".arbGeomParams");
+    const AlembicCompound params = arbitrary ? node_.archive.compound(*arbitrary) : AlembicCompound();
+    if (!node_.geometry.find("uv") && !params.find("groom_root_uv"))
+      remark("the roots have no texture coordinates (groom_root_uv or uv)");
+    if (!params.find("groom_id") && !params.find("ids") && !params.find("id"))
+      remark("the strands have no ids (groom_id)");
+  }
+
+ private:
+  std::string line(const std::string& text) const {
+    return visible(node_.archive.file().path().string() + ": <" + node_.path + ">: " + text);
+  }
+  void problem(const std::string& text) { findings_.problems.push_back(line(text)); }
+  void remark(const std::string& text) { findings_.remarks.push_back(line(text)); }
+
+  void check_counts(const AlembicProperty& counts, const UsdCurveForm& form) {
+    size_t few = 0, one = 0;
+    const std::vector<int64_t> first = alembic_integers(node_.archive, counts);
+    for (const int64_t n : first) {
+      const auto count = static_cast<uint32_t>(std::clamp<int64_t>(n, 0, UINT32_MAX));
+      one += count == 1;
+      few += form.segments(count) == 0;
+      sizes_.vertex += count;
+      sizes_.varying += form.varying(count);
+      ++sizes_.uniform;
+    }
+    sizes_.face_varying = sizes_.varying;
+    findings_.strands += sizes_.uniform;
+    if (one > 0) problem(fmt::format("{} strands have one point", one));
+    if (few > one) problem(fmt::format("{} strands have too few points for their basis", few - one));
+    for (uint32_t sample = 1; sample < counts.stored; ++sample) {
+      if (alembic_integers(node_.archive, counts, sample) == first) continue;
+      counts_change_ = true;
+      return problem(fmt::format("nVertices change at sample {}", sample));
+    }
+  }
+
+  void check_points(const AlembicProperty& points) {
+    findings_.points += sizes_.vertex;
+    for (uint32_t sample = 0; sample < points.stored; ++sample) {
+      const std::vector<float> numbers = alembic_floats(node_.archive, points, sample);
+      const std::string when = sample > 0 ? fmt::format(" at sample {}", sample) : "";
+      if (numbers.size() != 3 * sizes_.vertex && !(sample > 0 && counts_change_)) {
+        problem(fmt::format("there are {} points{}, but nVertices add up to {}", numbers.size() / 3, when,
+                            sizes_.vertex));
+      }
+      const auto bad =
+          std::count_if(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); });
+      if (bad > 0) problem(fmt::format("{} coordinates of points are not finite{}", bad, when));
+      for (size_t i = 0; sample == 0 && i + 2 < numbers.size(); i += 3) {
+        const V3f p(numbers[i], numbers[i + 1], numbers[i + 2]);
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) box_.extendBy(p);
+      }
+    }
+  }
+
+  void check_widths() {
+    const AlembicProperty* property = node_.geometry.find("width");
+    const std::optional<UsdPrimvar> widths =
+        property ? alembic_param(node_, *property, sizes_, warnings_) : std::nullopt;
+    if (!widths) return problem("it has no widths; programs choose their own, often 1");
+    const auto bad = std::count_if(widths->values.begin(), widths->values.end(),
+                                   [](float w) { return !(w >= 0) || std::isinf(w); });
+    if (bad > 0) problem(fmt::format("{} widths are negative or not finite", bad));
+    if (std::all_of(widths->values.begin(), widths->values.end(), [](float w) { return w == 0; }))
+      problem("all widths are 0");
+  }
+
+  void check_bounds() {
+    const AlembicProperty* property = node_.geometry.find(".selfBnds");
+    if (!property) return problem("it has no bounds (.selfBnds), which programs need");
+    const std::vector<double> b = alembic_doubles(node_.archive, *property);
+    if (b.size() != 6) return problem("its bounds (.selfBnds) are not two points");
+    if (box_.isEmpty()) return;
+    const double slack = kBoundsSlack * box_.size().length();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<size_t>(axis);
+      if (b[i] <= box_.min[axis] + slack && b[i + 3] >= box_.max[axis] - slack) continue;
+      return problem("its bounds (.selfBnds) are smaller than the strands");
+    }
+  }
+
+  const AlembicNode& node_;
+  UsdWarnings& warnings_;
+  UsdFindings& findings_;
+  UsdPrimvarCounts sizes_;
+  Box3f box_;  // of the points at the earliest sample
+  bool counts_change_ = false;
+};
+
+}  // namespace
+
+UsdFindings validate_alembic(const std::filesystem::path& path) {
+  UsdFindings findings;
+  UsdWarnings warnings;
+  AlembicScene scene(path, warnings);
+  scene.visit([&](const AlembicNode& node) {
+    findings.meshes +=
+        node.schema.starts_with("AbcGeom_PolyMesh_") || node.schema.starts_with("AbcGeom_SubD_");
+    if (node.schema.starts_with("AbcGeom_Curve_")) AlembicCurvesValidator(node, warnings, findings).check();
+  });
+  if (findings.curves == 0) findings.problems.push_back(visible(path.string()) + ": has no curves");
+  for (const std::string& line : warnings.lines()) findings.remarks.push_back(line);
+  return findings;
+}
+
+}  // namespace pelage

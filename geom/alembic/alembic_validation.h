@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "geom/usd/usd_validation.h"
+
+namespace pelage {
+
+/// Checks the curves of an Alembic file as validate_usd() does: that there are any, numbers that are not
+/// finite, curves with fewer points than they need, counts that do not fit or that change over time, widths
+/// that are missing or negative, and bounds (.selfBnds) that are smaller than the points; and, as remarks,
+/// missing texture coordinates of roots and ids. Throws Error (kInput) as read_alembic_curves() does.
+UsdFindings validate_alembic(const std::filesystem::path& path);
+
+}  // namespace pelage

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/mesh.h"
+#include "geom/usd/usd_primvar.h"
+
+namespace pelage {
+
+/// A mesh of a scene file, in world space. Indices are those of this mesh alone.
+struct MeshPart {
+  std::string name;
+  std::vector<V3f> points;
+  std::vector<uint32_t> face_sizes, face_vertices;
+  std::vector<uint32_t> holes, corners, crease_vertices, crease_lengths;
+  std::vector<float> corner_sharpness;  ///< one per corner
+  std::vector<float> crease_sharpness;  ///< one per crease or one per edge of creases
+  std::optional<UsdPrimvar> uv;         ///< with 2 components
+  std::optional<UsdPrimvar> colors;     ///< of vertices
+  bool reversed = false;                ///< whether the corners of faces are clockwise, seen from outside
+
+  UsdPrimvarCounts counts() const {
+    return {face_sizes.size(), points.size(), points.size(), face_vertices.size()};
+  }
+  /// Returns what is wrong with the indices and sizes; empty if nothing is.
+  std::string problem() const;
+};
+
+/// Joins the meshes of a scene file to one cage, in which each is an object and a group.
+class MeshJoiner {
+ public:
+  explicit MeshJoiner(ControlMesh& mesh) : mesh_(mesh) {}
+
+  /// Adds a mesh without a problem(). Throws Error (kInput) if the cage becomes too large.
+  void add(const MeshPart& part);
+  /// Makes faces of the mesh that was added last a group of this name. The faces must exist.
+  void add_group(const std::string& name, const std::vector<uint32_t>& faces);
+  /// Completes arrays for which only some meshes have values. To be called once, after all add().
+  void finish();
+
+ private:
+  void add_tags(const MeshPart& part);
+  void add_uv(const MeshPart& part);
+  void add_colors(const MeshPart& part);
+  void reverse_faces();
+
+  ControlMesh& mesh_;
+  uint32_t first_vertex_ = 0, first_face_ = 0, first_corner_ = 0;  // of the mesh that was added last
+};
+
+}  // namespace pelage

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "base/temporary_folder.h"
+#include "geom/alembic/alembic_curve_vertices.h"
+#include "geom/alembic/alembic_curves_file.h"
+#include "geom/alembic/alembic_scene.h"
+#include "geom/alembic/alembic_strands.h"
+#include "geom/alembic/alembic_values.h"
+#include "geom/curve.h"
+#include "geom/io/strand_file.h"
+#include "tests/geom/alembic/ogawa_bytes.h"
+#include "tests/geom/random_strands.h"
+
+namespace pelage::alembic_curves_test {
+namespace {
+
+using namespace ogawa_bytes;
+
+UsdCurvesFile read(const std::string& bytes) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a.abc", bytes);
+  return read_alembic_curves(folder.path() / "a.abc");
+}
+/// The curves of a file with one object.
+UsdCurvesFile read_curves(const std::vector<int32_t>& counts, const std::string& form,
+                          const std::vector<Part>& geometry, const std::vector<Part>& params,
+                          OgawaBytes& bytes) {
+  return read(bytes.file({bytes.curves("c", counts, form, geometry, params)}));
+}
+
+const StrandAttribute& attribute(const StrandArrays& a, const std::string& name) {
+  const auto found = std::find_if(a.attributes.begin(), a.attributes.end(),
+                                  [&](const StrandAttribute& one) { return one.name == name; });
+  EXPECT_NE(found, a.attributes.end()) << name;
+  static const StrandAttribute kNone;
+  return found == a.attributes.end() ? kNone : *found;
+}
+
+StrandArrays with_everything(CurveBasis basis) {
+  RandomStrandOptions options;
+  options.strands = 40;
+  options.min_points = basis == CurveBasis::kBSpline ? 4 : 2;
+  options.basis = basis;
+  StrandArrays a = random_strands(7, options).arrays();
+  const size_t points = a.points.size() / 4, strands = a.ids.size();
+  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}},
+      length{"length", AttributeClass::kPerStrand, 1, {}},
+      wide{"wide", AttributeClass::kPerStrand, 7, std::vector<float>(7 * strands, 0.25f)};
+  for (size_t i = 0; i < 3 * points; ++i) color.values.push_back(0.1f + 1e-3f * static_cast<float>(i));
+  for (size_t i = 0; i < strands; ++i) {
+    length.values.push_back(1.0f / static_cast<float>(i + 1));
+    a.root_uv.emplace_back(0.1f * static_cast<float>(i), 1 / 3.0f);
+  }
+  a.attributes = {color, length, wide, {"clump:size", AttributeClass::kConstant, 2, {1.5f, 1e-20f}}};
+  return a;
+}
+
+constexpr CurveBasis kBases[] = {CurveBasis::kPinnedBSpline, CurveBasis::kBSpline, CurveBasis::kLinear,
+                                 CurveBasis::kCatmullRom};
+
+TEST(AlembicCurves, RoundTripKeepsEverything) {
+  const TemporaryFolder folder;
+  for (const CurveBasis basis : kBases) {
+    const StrandArrays written = with_everything(basis);
+    const std::filesystem::path path = folder.path() / "a.abc";
+    write_strands(path, Strands(written));
+    const UsdCurvesFile file = read_alembic_curves(path);
+    EXPECT_TRUE(file.has_widths);
+    EXPECT_EQ(file.warnings, std::vector<std::string>());
+    EXPECT_EQ(file.strands.basis, basis);
+    EXPECT_EQ(file.strands.first_point, written.first_point);
+    EXPECT_EQ(file.strands.ids, written.ids);
+    EXPECT_EQ(file.strands.root_uv, written.root_uv);
+    EXPECT_EQ(file.strands.points, written.points);  // halving a width is exact
+    EXPECT_EQ(file.strands.attributes.size(), written.attributes.size());
+    for (const StrandAttribute& one : written.attributes) {
+      EXPECT_EQ(attribute(file.strands, one.name).frequency, one.frequency) << one.name;
+      EXPECT_EQ(attribute(file.strands, one.name).components, one.components) << one.name;
+      EXPECT_EQ(attribute(file.strands, one.name).values, one.values) << one.name;
+    }
+    EXPECT_EQ(what_is_lost(path, Strands(written)), "");
+  }
+}
+
+TEST(AlembicCurves, StrandsThatMoveAreWrittenAtTheirFirstKey) {
+  const TemporaryFolder folder;
+  RandomStrandOptions options;
+  options.motion_keys = 2;
+  const Strands moving = random_strands(3, options);
+  write_strands(folder.path() / "a.abc", moving);
+  const StrandArrays read = read_alembic_curves(folder.path() / "a.abc").strands;
+  EXPECT_EQ(read.motion_keys, 1);
+  EXPECT_EQ(read.points, std::vector<float>(moving.points(0).begin(), moving.points(0).end()));
+}
+
+/// The strands that a program sees which follows AbcGeom and knows nothing of Pelage.
+Strands as_others_read(const StrandArrays& written, AlembicHost host, CurveBasis basis) {
+  const Strands strands(written);
+  const AlembicCurveVertices file(strands, host);
+  StrandArrays a;
+  a.basis = basis;
+  a.first_point.push_back(0);
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    a.ids.push_back(s);
+    a.first_point.push_back(a.first_point.back() + static_cast<uint32_t>(file.count(s)));
+    for (size_t i = 0; i < file.count(s); ++i) {
+      const AlembicCurveVertex v = file.vertex(s, i);
+      a.points.insert(a.points.end(), {v.position.x, v.position.y, v.position.z, 0.5f * v.width});
+    }
+  }
+  return Strands(std::move(a));
+}
+
+TEST(AlembicCurves, OtherProgramsSeeTheSameCurves) {
+  StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);
+  written.attributes.clear();
+  const Strands strands(written);
+  const Strands others = as_others_read(written, AlembicHost::kAny, CurveBasis::kBSpline);
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    const uint32_t segments = segment_count(CurveBasis::kPinnedBSpline, strands.strand_points(s));
+    ASSERT_EQ(segment_count(CurveBasis::kBSpline, others.strand_points(s)), segments);
+    for (uint32_t i = 0; i < segments; ++i) {
+      const CubicSegment a = bezier_segment(strands, s, i), b = bezier_segment(others, s, i);
+      for (const float t : {0.0f, 0.3f, 1.0f}) {
+        // Coordinates are below 4; a sum of four products of floats is good to some 1e-6.
+        EXPECT_LT((curve_position(a, t) - curve_position(b, t)).length(), 3e-6f);
+        // Widths beyond the ends are not below 0.
+        EXPECT_GE(curve_radius(b, t), curve_radius(a, t) - 1e-6f);
+      }
+    }
+  }
+}
+
+TEST(AlembicCurves, StrandsForUnrealAreOnTheCurves) {
+  for (const CurveBasis basis : kBases) {
+    StrandArrays written = with_everything(basis);
+    const Strands strands(written);
+    const Strands unreal = as_others_read(written, AlembicHost::kUnreal, CurveBasis::kLinear);
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      const uint32_t segments = segment_count(basis, strands.strand_points(s));
+      ASSERT_EQ(unreal.strand_points(s), segments + 1);
+      for (uint32_t i = 0; i <= segments; ++i) {
+        const CubicSegment segment = bezier_segment(strands, s, std::min(i, segments - 1));
+        const V3f p = curve_position(segment, i < segments ? 0.0f : 1.0f);
+        const V3f q = unreal.point(unreal.first_point(s) + i);
+        EXPECT_LT((V3f(p.x, p.z, p.y) - q).length(), 3e-6f);
+      }
+    }
+  }
+}
+
+TEST(AlembicCurves, UnrealsSchemaIsComplete) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "rat.abc";
+  StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);
+  const std::vector<float> tint{0.5f, 0.25f, 0.125f};
+  written.attributes = {{"color", AttributeClass::kConstant, 3, tint},
+                        {"guide", AttributeClass::kPerStrand, 1, std::vector<float>(40, 1)}};
+  write_alembic_strands(path, Strands(written), {true, "rat", AlembicHost::kUnreal});
+  const AlembicArchive archive(path);
+  const std::vector<AlembicObject> top = archive.children(archive.top());
+  ASSERT_EQ(top.size(), 1u);
+  const auto compound = [&](const AlembicObject& object, const char* schema, const char* name) {
+    const AlembicCompound properties = archive.properties(object);
+    const AlembicCompound inner = archive.compound(*properties.find(schema));
+    return archive.compound(*inner.find(name));
+  };
+  for (const char* place : {".arbGeomParams", ".userProperties"}) {
+    const AlembicCompound facts = compound(top[0], ".xform", place);
+    EXPECT_EQ(alembic_integers(archive, *facts.find("groom_version_major")), std::vector<int64_t>{1});
+    EXPECT_EQ(alembic_integers(archive, *facts.find("groom_version_minor")), std::vector<int64_t>{4});
+    EXPECT_EQ(alembic_text(archive, *facts.find("groom_tool")).substr(0, 6), "Pelage");
+  }
+  const AlembicObject hair = archive.children(top[0]).at(0);
+  const AlembicCompound params = compound(hair, ".geom", ".arbGeomParams");
+  const auto scope = [&](const char* name) {
+    const AlembicProperty* property = params.find(name);
+    return property ? alembic_metadata(property->metadata, "geoScope") : "missing";
+  };
+  EXPECT_EQ(alembic_text(archive, *params.find("groom_group_name")), "rat");
+  EXPECT_EQ(scope("groom_group_name"), "con");
+  EXPECT_EQ(scope("groom_id"), "uni");
+  EXPECT_EQ(scope("groom_root_uv"), "uni");
+  EXPECT_EQ(scope("groom_guide"), "uni");
+  EXPECT_EQ(scope("groom_width"), "vtx");
+  EXPECT_EQ(scope("groom_color"), "vtx");
+  EXPECT_EQ(params.find("groom_guide")->pod, AlembicPod::kInt16);
+  EXPECT_EQ(alembic_count(archive, *params.find("groom_color")),
+            3 * alembic_count(archive, *params.find("groom_width")));
+  const UsdCurvesFile file = read_alembic_curves(path);
+  EXPECT_EQ(file.strands.basis, CurveBasis::kLinear);
+  EXPECT_EQ(file.strands.ids, written.ids);
+  EXPECT_EQ(attribute(file.strands, "color").values[3], tint[0]);
+}
+
+TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
+  const auto basis_of = [](const std::string& form, const std::vector<Part>& more, OgawaBytes& bytes) {
+    return read_curves({7}, form, more, {}, bytes).strands;
+  };
+  const auto read_form = [&](int type, int wrap, int basis) {
+    OgawaBytes bytes;
+    return basis_of(curve_form(type, wrap, basis), {}, bytes);
+  };
+  EXPECT_EQ(read_form(1, 0, 0).basis, CurveBasis::kLinear);
+  EXPECT_EQ(read_form(1, 0, 0).points.size(), 4u * 7);
+  EXPECT_EQ(read_form(1, 1, 0).points.size(), 4u * 8);
+  EXPECT_EQ(read_form(0, 0, 2).basis, CurveBasis::kBSpline);
+  EXPECT_EQ(read_form(0, 0, 2).points.size(), 4u * 7);
+  EXPECT_EQ(read_form(0, 1, 2).points.size(), 4u * 10);
+  // Two Bezier segments, and four segments of Catmull-Rom, with points at sixths.
+  for (const auto& [basis, points, last] : {std::tuple{1, 13u, 6.0f}, std::tuple{3, 25u, 5.0f}}) {
+    const StrandArrays a = read_form(0, 0, basis);
+    EXPECT_EQ(a.basis, CurveBasis::kCatmullRom);
+    EXPECT_EQ(a.points.size(), 4 * points);
+    EXPECT_NEAR(a.points[a.points.size() - 4], last, 1e-6f);
+  }
+  OgawaBytes knots;
+  const std::vector<Part> clamped{
+      knots.array(".knots", kFloat, 1, {raw<float>({0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4})})};
+  EXPECT_EQ(basis_of(curve_form(0, 0, 2), clamped, knots).basis, CurveBasis::kPinnedBSpline);
+  OgawaBytes orders;
+  const std::vector<Part> cubic{orders.array(".orders", kUint8, 1, {"\4"})};
+  EXPECT_EQ(basis_of(curve_form(2, 0, 0), cubic, orders).basis, CurveBasis::kBSpline);
+  OgawaBytes power;
+  EXPECT_THROW(basis_of(curve_form(0, 0, 5), {}, power), Error);  // skipped: no curves are left
+}
+
+TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
+  OgawaBytes b;
+  const std::vector<Part> geometry{
+      b.array("width", kDouble, 1, {raw<double>({0.5, 0.25})}, "geoScope=uni"),
+      b.compound("uv",
+                 {b.array(".vals", kFloat, 2, {raw<float>({0, 0.5f, 1, 0.25f})}, "geoScope=vtx"),
+                  b.array(".indices", kUint32, 1, {raw<uint32_t>({1, 0, 0, 0, 1})})},
+                 "geoScope=vtx")};
+  const std::vector<Part> params{
+      b.array("groom_id", kInt32, 1, {raw<int32_t>({9, 4})}, "geoScope=uni"),
+      b.array("Cd", kFloat, 3, {raw<float>({1, 0, 0})}, "geoScope=con"),
+      b.array("pair", kInt16, 1, {raw<int16_t>({1, 2, 3, 4})}, "geoScope=uni;arrayExtent=2"),
+      b.array("name", kText, 1, {"text\0"}, "geoScope=con")};
+  const UsdCurvesFile file = read_curves({3, 2}, linear_form(), geometry, params, b);
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  const StrandArrays& a = file.strands;  // sorted by ids: the curve of two points is first
+  EXPECT_EQ(a.first_point, (std::vector<uint32_t>{0, 2, 5}));
+  EXPECT_EQ(a.points[3], 0.125f);
+  EXPECT_EQ(a.points[4 * 4 + 3], 0.25f);
+  EXPECT_EQ(a.root_uv, (std::vector<V2f>{{0, 0.5f}, {1, 0.25f}}));
+  EXPECT_EQ(attribute(a, "color").values, (std::vector<float>{1, 0, 0}));
+  EXPECT_EQ(attribute(a, "pair").values, (std::vector<float>{3, 4, 1, 2}));
+  EXPECT_EQ(a.attributes.size(), 2u);
+}
+
+TEST(AlembicCurves, GuidesAreSkippedUnlessThereIsNothingElse) {
+  OgawaBytes b;
+  const std::vector<Part> guide{b.array("groom_guide", kInt16, 1, {raw<int16_t>({1})}, "geoScope=con")},
+      strand{b.array("groom_guide", kInt16, 1, {raw<int16_t>({0})}, "geoScope=con"),
+             b.array("groom_width", kFloat, 1, {raw<float>({0.5f})}, "geoScope=con")};
+  const Part guides = b.curves("g", {5, 5}, linear_form(), {}, guide);
+  const UsdCurvesFile both = read(b.file({guides, b.curves("s", {3}, linear_form(), {}, strand)}));
+  EXPECT_EQ(both.strands.ids.size(), 1u);
+  EXPECT_TRUE(both.has_widths);
+  EXPECT_EQ(both.strands.points[3], 0.25f);
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_NE(both.warnings[0].find("guides (groom_guide) are skipped"), std::string::npos);
+  EXPECT_EQ(read(b.file({guides})).strands.ids.size(), 2u);
+}
+
+TEST(AlembicCurves, TransformsVisibilityAndSamples) {
+  OgawaBytes b;
+  const auto transform = [&](const std::string& name, const std::string& ops,
+                             const std::vector<double>& values, std::vector<Part> children,
+                             bool inherits = true, int visible = -1) {
+    const std::vector<Part> xform{
+        b.scalar(".ops", kUint8, static_cast<uint32_t>(ops.size()), {ops}),
+        b.scalar(".vals", kDouble, static_cast<uint32_t>(values.size()), {raw(values)}),
+        b.scalar(".inherits", Pod(0), 1, {std::string(1, inherits ? '\1' : '\0')})};
+    return b.object(name, "AbcGeom_Xform_v3",
+                    {b.compound(".xform", xform),
+                     b.scalar("visible", kInt8, 1, {std::string(1, static_cast<char>(visible))})},
+                    children);
+  };
+  // Scale by 2, then turn (0, 1, 0) to (0, 0, 1), then move: operations of the list apply in reverse.
+  const std::string ops{0x10, 0x40, 0x00};
+  const std::vector<double> values{10, 20, 30, 90, 2, 2, 2};
+  const auto widths = [&] { return std::vector<Part>{b.array("width", kFloat, 1, {raw<float>({0.5f})})}; };
+  const Part near = b.curves("near", {2}, linear_form(), widths());
+  const UsdCurvesFile file = read(b.file({transform("t", ops, values, {near})}));
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  const auto last = [](const UsdCurvesFile& one) {
+    const float* p = &one.strands.points[one.strands.points.size() - 4];
+    return V3f(p[0], p[1], p[2]);
+  };
+  // (1, 1, 0) becomes (2, 2, 0), (2, 0, 2) and (12, 20, 32).
+  EXPECT_LT((last(file) - V3f(12, 20, 32)).length(), 1e-5f);
+  EXPECT_FLOAT_EQ(file.strands.points[3], 0.5f);  // half of 2 * 0.5
+  // Rotation about an axis and a matrix do the same; a transform within them that does not inherit.
+  const std::string others{0x30, 0x20};
+  const std::vector<double> same{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 20, 30, 1, 1, 0, 0, 90};
+  EXPECT_LT((last(read(b.file({transform("t", others, same, {near})}))) - V3f(12, 20, 32)).length(), 1e-5f);
+  const std::string move{0x10};
+  const Part own = transform("own", move, {1, 0, 0}, {b.curves("c", {2}, linear_form())}, false);
+  EXPECT_LT((last(read(b.file({transform("t", ops, values, {own})}))) - V3f(2, 1, 0)).length(), 1e-5f);
+  // A hidden transform hides what is in it, except what is shown explicitly.
+  const Part shown = transform("shown", move, {5, 0, 0}, {b.curves("c", {3}, linear_form())}, true, 1);
+  const Part hidden = b.curves("h", {2}, linear_form());
+  const UsdCurvesFile some = read(b.file({transform("t", move, {0, 0, 0}, {hidden, shown}, true, 0)}));
+  EXPECT_EQ(some.strands.ids.size(), 1u);
+  ASSERT_EQ(some.warnings.size(), 1u);
+  EXPECT_NE(some.warnings[0].find("hidden objects are skipped"), std::string::npos);
+  // The first of two samples.
+  const std::vector<Part> moving{
+      b.array("P", kFloat, 3, {raw<float>({1, 2, 3, 4, 5, 6}), raw<float>({0, 0, 0, 9, 9, 9})}),
+      b.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
+      b.scalar("curveBasisAndType", kUint8, 4, {linear_form()})};
+  const UsdCurvesFile first =
+      read(b.file({b.object("m", "AbcGeom_Curve_v2", {b.compound(".geom", moving)})}));
+  EXPECT_EQ(last(first), V3f(4, 5, 6));
+  ASSERT_EQ(first.warnings.size(), 1u);
+  EXPECT_NE(first.warnings[0].find("time samples after the first are skipped"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pelage::alembic_curves_test

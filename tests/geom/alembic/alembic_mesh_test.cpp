@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/temporary_folder.h"
+#include "geom/alembic/alembic_mesh_file.h"
+#include "geom/io/mesh_file.h"
+#include "tests/geom/alembic/ogawa_bytes.h"
+
+namespace pelage::alembic_mesh_test {
+namespace {
+
+using namespace ogawa_bytes;
+
+UsdMeshFile read(const std::string& bytes, const UsdMeshReserve& reserve = {}) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a.abc", bytes);
+  return read_alembic_mesh(folder.path() / "a.abc", reserve);
+}
+std::string refusal(const std::string& bytes) {
+  try {
+    read(bytes);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_EQ(error.problems().size(), 1u);
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// A quad and a triangle over five points.
+std::vector<Part> faces(OgawaBytes& b, const std::vector<int32_t>& indices = {0, 1, 2, 3, 3, 2, 4},
+                        const std::vector<int32_t>& counts = {4, 3}) {
+  return {b.array("P", kFloat, 3, {raw<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 2, 0})}),
+          b.array(".faceIndices", kInt32, 1, {raw(indices)}),
+          b.array(".faceCounts", kInt32, 1, {raw(counts)})};
+}
+
+TEST(AlembicMesh, SubdivisionMeshesAreThoseOfUsd) {
+  OgawaBytes b;
+  std::vector<Part> geometry = faces(b);
+  const std::vector<Part> tags{
+      b.array(".creaseIndices", kInt32, 1, {raw<int32_t>({0, 1, 2, 3, 2})}),
+      b.array(".creaseLengths", kInt32, 1, {raw<int32_t>({3, 2})}),
+      b.array(".creaseSharpnesses", kFloat, 1, {raw<float>({2, 1.5f})}),
+      b.array(".cornerIndices", kInt32, 1, {raw<int32_t>({4})}),
+      b.array(".cornerSharpnesses", kFloat, 1, {raw<float>({3})}),
+      b.array(".holes", kInt32, 1, {raw<int32_t>({1})}),
+      b.scalar(".interpolateBoundary", kInt32, 1, {raw<int32_t>({2})}),
+      b.compound("uv",
+                 {b.array(".vals", kFloat, 2, {raw<float>({0, 0, 1, 0, 1, 1, 0, 1})}, "geoScope=fvr"),
+                  b.array(".indices", kUint32, 1, {raw<uint32_t>({0, 1, 2, 3, 3, 2, 1})})},
+                 "geoScope=fvr"),
+      b.compound(".arbGeomParams",
+                 {b.array("Cd", kFloat, 3, {raw<float>({0, 0, 0, 0, 0, 0, 1, 0.5f, 0, 0, 0, 0, 0, 0, 0})},
+                          "geoScope=vtx")})};
+  geometry.insert(geometry.end(), tags.begin(), tags.end());
+  const Part set = b.object("ear", "AbcGeom_FaceSet_v1",
+                            {b.compound(".faceset", {b.array(".faces", kInt32, 1, {raw<int32_t>({1})})})});
+  const Part mesh = b.object("m", "AbcGeom_SubD_v1", {b.compound(".geom", geometry)}, {set});
+  std::vector<int64_t> charges;
+  const UsdMeshFile file = read(b.file({mesh}), [&](int64_t bytes) { charges.push_back(bytes); });
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  ASSERT_EQ(charges.size(), 1u);
+  EXPECT_GE(charges[0], static_cast<int64_t>(file.mesh.bytes() / 2));
+  const UsdMeshFile usd = read_usd_mesh("a.usda", R"(#usda 1.0
+def Mesh "m" {
+  uniform token orientation = "leftHanded"
+  uniform token interpolateBoundary = "edgeOnly"
+  int[] faceVertexCounts = [4, 3]
+  int[] faceVertexIndices = [0, 1, 2, 3, 3, 2, 4]
+  point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 2, 0)]
+  int[] creaseIndices = [0, 1, 2, 3, 2]
+  int[] creaseLengths = [3, 2]
+  float[] creaseSharpnesses = [2, 1.5]
+  int[] cornerIndices = [4]
+  float[] cornerSharpnesses = [3]
+  int[] holeIndices = [1]
+  texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "faceVarying")
+  int[] primvars:st:indices = [0, 1, 2, 3, 3, 2, 1]
+  color3f[] primvars:displayColor = [(0,0,0),(0,0,0),(1,0.5,0),(0,0,0),(0,0,0)] (interpolation = "vertex")
+  def GeomSubset "ear" { int[] indices = [1] }
+})");
+  const ControlMesh &a = file.mesh, &c = usd.mesh;
+  EXPECT_EQ(a.positions, c.positions);
+  EXPECT_EQ(a.face_sizes, c.face_sizes);
+  EXPECT_EQ(a.face_vertices, c.face_vertices);
+  EXPECT_EQ(a.face_vertices, (std::vector<uint32_t>{3, 2, 1, 0, 4, 2, 3}));
+  EXPECT_EQ(a.uv, c.uv);
+  EXPECT_EQ(a.face_uv, c.face_uv);
+  EXPECT_EQ(a.holes, c.holes);
+  EXPECT_EQ(a.colors, c.colors);
+  EXPECT_EQ(a.groups, c.groups);
+  EXPECT_EQ(a.face_groups, c.face_groups);
+  EXPECT_EQ(a.objects.names, c.objects.names);
+  EXPECT_EQ(a.boundary_tag, c.boundary_tag);
+  ASSERT_EQ(a.creases.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(a.creases[i].a, c.creases[i].a);
+    EXPECT_EQ(a.creases[i].b, c.creases[i].b);
+    EXPECT_EQ(a.creases[i].sharpness, c.creases[i].sharpness);
+  }
+  ASSERT_EQ(a.corners.size(), 1u);
+  EXPECT_EQ(a.corners[0].sharpness, 3);
+}
+
+TEST(AlembicMesh, SeveralMeshesAreJoined) {
+  OgawaBytes b;
+  const Part plain = b.object("plain", "AbcGeom_PolyMesh_v1", {b.compound(".geom", faces(b))});
+  std::vector<Part> geometry = faces(b);
+  geometry.push_back(b.array("uv", kFloat, 2, {raw<float>({0, 0, 1, 0, 1, 1, 0, 1, 0, 2})}, "geoScope=vtx"));
+  const Part mirrored = b.object("mirrored", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)});
+  const std::vector<Part> xform{b.scalar(".ops", kUint8, 1, {std::string(1, '\0')}),
+                                b.scalar(".vals", kDouble, 3, {raw<double>({-1, 1, 1})})};
+  const Part parent = b.object("x", "AbcGeom_Xform_v3", {b.compound(".xform", xform)}, {mirrored});
+  const ControlMesh mesh = read(b.file({plain, parent})).mesh;
+  EXPECT_EQ(mesh.positions.size(), 10u);
+  EXPECT_EQ(mesh.positions[6], V3f(-1, 0, 0));
+  // Mirrored faces keep their order, which is clockwise before they are mirrored.
+  EXPECT_EQ(mesh.face_vertices, (std::vector<uint32_t>{3, 2, 1, 0, 4, 2, 3, 5, 6, 7, 8, 8, 7, 9}));
+  EXPECT_EQ(mesh.face_uv.size(), 14u);
+  EXPECT_EQ(mesh.uv[mesh.face_uv[0]], V2f(0));
+  EXPECT_EQ(mesh.uv[mesh.face_uv[13]], V2f(0, 2));
+  EXPECT_EQ(mesh.objects.names, (std::vector<std::string>{"plain", "mirrored"}));
+}
+
+TEST(AlembicMesh, BadMeshesAreRefused) {
+  const auto with = [](const std::vector<int32_t>& indices, const std::vector<int32_t>& counts,
+                       const char* tag = nullptr, const std::vector<int32_t>& values = {}) {
+    OgawaBytes b;
+    std::vector<Part> geometry = faces(b, indices, counts);
+    if (tag) geometry.push_back(b.array(tag, kInt32, 1, {raw(values)}));
+    return refusal(b.file({b.object("m", "AbcGeom_SubD_v1", {b.compound(".geom", geometry)})}));
+  };
+  EXPECT_NE(with({0, 1, 5}, {3}).find("a.abc: </m>: the index 5 is not one of 5 points"), std::string::npos);
+  EXPECT_NE(with({0, 1, -1}, {3}).find("the index -1"), std::string::npos);
+  EXPECT_NE(with({0, 1, 1}, {3}).find("face 0 has fewer than 3 different points"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {4}).find("need more indices"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {1'000'000'000}).find("need more indices"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2, 3}, {3}).find("need fewer indices"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {3}, ".holes", {1}).find("a hole is not one"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {3}, ".creaseLengths", {2}).find("creases need more"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {3}, ".cornerIndices", {1}).find("too few sharpnesses"), std::string::npos);
+  OgawaBytes b;
+  const Part curves = b.curves("c", {3}, linear_form());
+  EXPECT_NE(refusal(b.file({curves})).find("has no mesh"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pelage::alembic_mesh_test
