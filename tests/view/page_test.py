@@ -224,6 +224,16 @@ class Page(PageTest):
         self.settle(browser)
         dark = self.mean(browser)[0]
         self.assertEqual(self.text(browser, "frame_number"), "1")
+        # Play is the first thing that is done: so far, the scene has been read without a choice of a frame.
+        play = browser.find_element(By.ID, "play")
+        shows = lambda frame: self.state()["frame"] == 3 and self.text(browser, "frame_number") == str(frame)
+        play.click()
+        self.until(lambda: shows(2))
+        play.click()
+        self.until(lambda: self.text(browser, "frame_number") == str(self.state()["frame"]))
+        browser.execute_script("const e = document.getElementById('frame'); e.value = 0; e.dispatchEvent(new Event('input'))")
+        self.wait(lambda state: state["frame"] == 1)
+        self.settle(browser)
         body = browser.find_element(By.TAG_NAME, "body")
         body.send_keys(".")
         body.send_keys(".")
@@ -237,9 +247,7 @@ class Page(PageTest):
         self.wait(lambda state: state["frame"] == 1)
 
         # Plays the frames without rendering them again.
-        play = browser.find_element(By.ID, "play")
         play.click()
-        shows = lambda frame: self.state()["frame"] == 3 and self.text(browser, "frame_number") == str(frame)
         self.until(lambda: shows(2))
         self.until(lambda: shows(1))
         edits = self.state()["edits"]

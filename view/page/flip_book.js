@@ -19,7 +19,7 @@ export class FlipBook {
     this.begin();
   }
 
-  // Forgets all pictures, because they show what no longer is.
+  // Forgets all pictures.
   begin() {
     clearTimeout(this.timer);
     this.timer = this.shown = null;
@@ -54,7 +54,9 @@ export class FlipBook {
     // Each frame is an edit of its own.
     const edits = this.edits + this.pictures.length - (this.timer === null ? 0 : 1);
     if (this.pictures.length && (key !== this.key || state.edits > edits)) return this.begin();
-    if (this.timer !== null || layer.frame !== this.all[this.pictures.length] || layer.grid > kCoarsest) return;
+    // The layer may be of the frame before it was chosen, which began another edit.
+    const isWanted = layer.edit === state.edits && layer.frame === this.all[this.pictures.length];
+    if (this.timer !== null || !isWanted || layer.grid > kCoarsest) return;
     this.key = key;
     this.fps = state.fps;
     if (!this.pictures.length) this.edits = layer.edit;
