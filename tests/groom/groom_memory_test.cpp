@@ -56,7 +56,8 @@ void expect_same(const FollicleTree& a, const FollicleTree& b) {
 
 TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
   for (const char* density : {"1", "{ramp: {along: y, knots: [[-1, 0.2], [1, 1]]}}"}) {
-    // All candidates are held up to 21,000 follicles; up to 340,000, all if there is room. The next test is above.
+    // All candidates are held up to 21,000 follicles; up to 340,000, all if there is room. The next test is
+    // above.
     for (const int64_t count : {20'000, 150'000}) {
       const int64_t needed = follicle_temporary_bytes(count);
       FollicleTree first;
