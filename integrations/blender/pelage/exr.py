@@ -99,6 +99,13 @@ def read(path: str | pathlib.Path, wanted: Callable[[str], bool] = lambda name: 
     """Returns the header, and the channels (height, width) whose names are wanted, as floats; the first row is the top one."""
     data = pathlib.Path(path).read_bytes()
     header = read_header(data)
+    try:
+        return header, _read_channels(data, header, wanted)
+    except (struct.error, ValueError, zlib.error) as error:
+        raise error if isinstance(error, ExrError) else ExrError(f"damaged EXR file: {error}") from error
+
+
+def _read_channels(data: bytes, header: Header, wanted: Callable[[str], bool]) -> dict[str, np.ndarray]:
     if header.compression not in ROWS:
         raise ExrError(f"EXR compression {header.compression} is not supported")
     width, height = header.width, header.height
@@ -118,7 +125,7 @@ def read(path: str | pathlib.Path, wanted: Callable[[str], bool] = lambda name: 
                 part = np.ascontiguousarray(block[:, at:at + width * kind.itemsize])
                 pixels[name][top:top + rows] = part.view(kind)
             at += width * kind.itemsize
-    return header, pixels
+    return pixels
 
 
 def encode(channels: dict[str, np.ndarray]) -> bytes:

@@ -109,24 +109,15 @@ def keys_by_calls(ob: bpy.types.Object, system: Any, numbers: range, steps: int)
     co_hair = system.co_hair
     flat = [c for i in numbers for j in range(steps + 1) for c in co_hair(ob, particle_no=i, step=j)]
     keys = np.array(flat, np.float32).reshape(len(numbers), steps + 1, 3)
-    # Beyond the end of a strand, the points are 0 before the matrix of the object is applied, so they are equal.
-    same = np.all(np.isclose(keys[:, 1:], np.zeros(3)), axis=2)
-    beyond = np.where(same, np.arange(1, steps + 1), steps + 1)
-    length = np.where(same[:, -1], steps, steps + 1)
-    for i in np.flatnonzero(same[:, -1]):
-        run = steps
-        while run > 0 and same[i, run - 1]:
-            run -= 1
-        length[i] = run + 1
-    del beyond
-    return keys, length - 1
+    there = np.any(keys != 0, axis=2)  # co_hair() returns 0, 0, 0 beyond the end of a strand
+    return keys, (there * np.arange(steps + 1)).max(axis=1).astype(np.int32)
 
 
 def read_keys(ob: bpy.types.Object, system: Any, numbers: range, steps: int) -> tuple[np.ndarray, np.ndarray]:
     try:
         keys, segments = _keys_from_memory(system, numbers, steps)
         _checked(ob, system, numbers, keys, segments)
-        return keys, np.maximum(segments, 0)
+        return keys, segments
     except (OSError, ValueError, OverflowError):
         return keys_by_calls(ob, system, numbers, steps)
 
