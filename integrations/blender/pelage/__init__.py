@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import engine, groom, preferences, settings
+from . import engine, fur_operators, fur_panel, groom, preferences, settings
 
 bl_info = {
     "name": "Pelage",
@@ -15,7 +15,7 @@ bl_info = {
     "description": "Grows fur on meshes and renders it",
     "category": "Render",
 }
-MODULES = (preferences, settings, groom, engine)
+MODULES = (preferences, settings, groom, fur_operators, fur_panel, engine)
 
 
 def register() -> None:

@@ -26,7 +26,7 @@ def transformed(points: FLOATS, matrix: Any) -> FLOATS:
 
 def numbers(values: Any) -> list[float]:
     """Plain numbers for a scene file: seven digits, as a float has."""
-    return [float(f"{value:.7g}") for value in np.asarray(values, np.float64).ravel()]
+    return [float(f"{value:.7g}") + 0.0 for value in np.asarray(values, np.float64).ravel()]
 
 
 def place(point: Sequence[float]) -> list[float]:

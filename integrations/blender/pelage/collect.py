@@ -10,6 +10,7 @@ import bpy
 import mathutils
 import numpy as np
 
+from . import groom
 from .axes import to_pelage, transformed
 from .hair_curves import read_curves
 from .hair_particles import HairStrands, hair_systems, read_hair
@@ -78,7 +79,9 @@ def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, rende
     systems = hair_systems(ob, render) if instance.show_particles and ob.type == "MESH" else []
     mesh = ob.to_mesh()
     try:
-        cage = cage_of(ob, mesh, render, rest=bool(len(ob.original.pelage.coats))) if mesh is not None else None
+        fur = ob.original if len(ob.original.pelage.coats) else None
+        groups = groom.groups_of(fur) if fur is not None else []
+        cage = cage_of(ob, mesh, render, fur is not None, groups) if mesh is not None else None
     finally:
         ob.to_mesh_clear()
     if cage is None:

@@ -98,8 +98,8 @@ def subdivision(ob: bpy.types.Object, render: bool) -> bpy.types.Modifier | None
     return modifier if exact and len(mesh.polygons) else None
 
 
-def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool) -> Cage | None:
-    """The cage of an evaluated object whose evaluated mesh is given.
+def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool, groups: list[str]) -> Cage | None:
+    """The cage of an evaluated object whose evaluated mesh is given, with the weights of up to three vertex groups as colours.
 
     rest: also find the positions before modifiers, so that a coat of Pelage stays where it is while the object deforms; such
     meshes are not split at sharp edges.
@@ -110,10 +110,12 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
         assert cage is not None
         cage.scheme = "catmull-clark"
         cage.boundary = "edge-only" if modifier.boundary_smooth == "ALL" else "edge-and-corner"
+        cage.colors = _group_colors(ob, ob.original.data, groups)
         return cage
     cage = read_mesh(mesh, sharp=not rest)
     if cage is None or not rest or ob.type != "MESH":
         return cage
+    cage.colors = _group_colors(ob, mesh, groups)
     original = ob.original.data
     keeps = all(m.type in DEFORMING for m in geometry_modifiers(ob, render))
     if keeps and len(original.vertices) == len(mesh.vertices):
@@ -138,6 +140,17 @@ def vertex_weights(mesh: bpy.types.Mesh, index: int) -> np.ndarray:
             if group.group == index:
                 weights[vertex.index] = group.weight
     return weights
+
+
+def _group_colors(ob: bpy.types.Object, mesh: bpy.types.Mesh, groups: list[str]) -> np.ndarray | None:
+    """Weights (n, 3) of up to three vertex groups."""
+    if not groups:
+        return None
+    colors = np.zeros((len(mesh.vertices), 3), np.float32)
+    for channel, name in enumerate(groups):
+        if name in ob.vertex_groups:
+            colors[:, channel] = vertex_weights(mesh, ob.vertex_groups[name].index)
+    return colors
 
 
 def faces_of_slot(cage: Cage, slot: int) -> Cage:

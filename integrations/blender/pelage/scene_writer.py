@@ -196,7 +196,7 @@ class SceneWriter:
         cage, slots = item.cage, [int(slot) for slot in np.unique(item.cage.slots)]
         groups = [(f"slot{slot}", np.flatnonzero(cage.slots == slot)) for slot in slots] if len(slots) > 1 else None
         material = self._skin_material(item, slots)
-        rest = groom.prepare(item, self.notes) if coats else None
+        rest = groom.rest_points(item) if coats else None
         skin = self.skin(item.name, (cage, item.poses), rest, groups)
         part: Block = {"skin": skin, "material": material, "grooms": {}}
         for coat in coats:
