@@ -37,9 +37,10 @@ def left_folders():
     return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("pelage-blender-")]
 
 
-def empty_scene(width=48, height=48):
-    """A scene without objects and light."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
+def empty_scene(width=48, height=48, new=True):
+    """A scene without objects and light; with a window, Blender cannot make a new one from a timer."""
+    if new:
+        bpy.ops.wm.read_homefile(use_factory_startup=True)
     for ob in list(bpy.data.objects):
         bpy.data.objects.remove(ob)
     scene = bpy.context.scene

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import engine, fur_operators, fur_panel, groom, preferences, settings
+from . import engine, fur_operators, fur_panel, groom, preferences, settings, viewport
 
 bl_info = {
     "name": "Pelage",
@@ -15,7 +15,7 @@ bl_info = {
     "description": "Grows fur on meshes and renders it",
     "category": "Render",
 }
-MODULES = (preferences, settings, groom, fur_operators, fur_panel, engine)
+MODULES = (preferences, settings, groom, fur_operators, fur_panel, viewport, engine)
 
 
 def register() -> None:

@@ -30,21 +30,26 @@ def placement(matrix: mathutils.Matrix, distance: float) -> dict[str, list[float
             "up": place(matrix.col[1].xyz.normalized())}
 
 
-def optics(camera: bpy.types.Object, projection: np.ndarray, notes: Notes) -> dict[str, Any]:
-    """Field of view, shift and depth of field for a projection matrix (4, 4)."""
-    data = camera.data
+def projected(projection: np.ndarray, orthographic: bool) -> dict[str, Any]:
+    """Field of view and shift of a projection matrix (4, 4)."""
     result: dict[str, Any] = {}
-    if data.type == "ORTHO":
+    if orthographic:
         result["orthographic"] = numbers([2 / projection[1, 1]])[0]
         offset = -projection[0, 3] / 2, -projection[1, 3] / 2
     else:
-        if data.type == "PANO":
-            notes.add("panoramic cameras: seen in perspective")
-        fov = vertical_fov(projection[1, 1])
-        result["fov"] = numbers([min(max(fov, 0.01), 170)])[0]
+        result["fov"] = numbers([min(max(vertical_fov(projection[1, 1]), 0.01), 170)])[0]
         offset = projection[0, 2] / 2, projection[1, 2] / 2
     if max(abs(value) for value in offset) > 1e-7:
         result["shift"] = numbers(offset)
+    return result
+
+
+def optics(camera: bpy.types.Object, projection: np.ndarray, notes: Notes) -> dict[str, Any]:
+    """Field of view, shift and depth of field for a projection matrix (4, 4)."""
+    data = camera.data
+    if data.type == "PANO":
+        notes.add("panoramic cameras: seen in perspective")
+    result = projected(projection, data.type == "ORTHO")
     if data.dof.use_dof:
         focal_length = 1e-3 * data.lens if data.type != "ORTHO" else 1.0
         result["lens"] = {"f_stop": max(data.dof.aperture_fstop, 1e-3), "focal_length": focal_length,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import os
 import pathlib
 import tempfile
 import traceback
 
 import bpy
 
-from . import exr, passes, preferences, process
+from . import exr, passes, preferences, process, viewport
 from .files import SceneFolder
 from .scene_writer import SceneWriter
 from .settings import ENGINE
@@ -44,6 +45,29 @@ class PelageEngine(bpy.types.RenderEngine):
     bl_use_postprocess = True
     bl_use_eevee_viewport = True
     stage = ""
+    session: viewport.ViewportSession | None = None
+
+    def __del__(self) -> None:
+        if self.session is not None:
+            self.session.close()
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        try:
+            if self.session is None:
+                self.session = viewport.ViewportSession(depsgraph)
+                viewport.follow(self)
+            self.session.write(context, depsgraph)
+        except process.PelageFailed as error:
+            self.update_stats("Pelage", str(error))
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        if self.session is None:
+            return
+        self.session.follow_view(context, depsgraph)
+        self.bind_display_space_shader(depsgraph.scene)
+        self.session.draw(context)
+        self.unbind_display_space_shader()
+        self.update_stats("Pelage", self.session.status())
 
     def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
         self.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
@@ -57,7 +81,7 @@ class PelageEngine(bpy.types.RenderEngine):
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
         # Blender 3.4 crashes when an exception leaves this function, and in error_set().
         try:
-            with tempfile.TemporaryDirectory(prefix="pelage-blender-") as folder:
+            with tempfile.TemporaryDirectory(prefix=f"{viewport.PREFIX}{os.getpid()}-") as folder:
                 self._render(depsgraph, pathlib.Path(folder))
         except process.Cancelled:
             pass

@@ -91,6 +91,7 @@ class PELAGE_OT_fur_add(_OnMesh, bpy.types.Operator):
         coat.root_color, coat.tip_color, coat.roughness = plan.root_color, plan.tip_color, plan.roughness
         for kind, values in plan.operators:
             add_operator(coat, known[kind], values)
+        ob.update_tag()
         if self.preset == "WHISKERS" and ob.vertex_groups.active is not None:
             coat.use_density, coat.density.group = True, ob.vertex_groups.active.name
         return {"FINISHED"}
@@ -120,6 +121,7 @@ class PELAGE_OT_fur_remove(_OnMesh, bpy.types.Operator):
             return {"CANCELLED"}
         fur.coats.remove(min(fur.active, len(fur.coats) - 1))
         fur.active = max(0, min(fur.active, len(fur.coats) - 1))
+        context.object.update_tag()
         return {"FINISHED"}
 
 
@@ -146,6 +148,7 @@ class PELAGE_OT_operator_add(_OnMesh, bpy.types.Operator):
         width = next((i for i, o in enumerate(coat.operators) if o.kind == "width"), len(coat.operators) - 1)
         if self.kind != "width":
             coat.operators.move(len(coat.operators) - 1, width)
+        context.object.update_tag()
         return {"FINISHED"}
 
 
@@ -166,6 +169,7 @@ class PELAGE_OT_operator_edit(_OnMesh, bpy.types.Operator):
             target = self.index + (1 if self.action == "DOWN" else -1)
             if 0 <= target < len(coat.operators):
                 coat.operators.move(self.index, target)
+        context.object.update_tag()
         return {"FINISHED"}
 
 
@@ -198,6 +202,7 @@ class PELAGE_OT_value_set(_OnMesh, bpy.types.Operator):
                 operator.maps.remove(at)
             else:
                 operator.maps.add().key = key.name
+        context.object.update_tag()
         return {"FINISHED"}
 
 

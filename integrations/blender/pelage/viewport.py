@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Progressive pictures in the viewport: `pelage view` renders a folder that follows the edits in Blender."""
+from __future__ import annotations
+
+import atexit
+import os
+import pathlib
+import shutil
+import tempfile
+import weakref
+from typing import Any
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.presets import draw_texture_2d
+
+from . import preferences, process
+from .camera import optics, placement, projected
+from .files import SceneFolder, document_text
+from .scene_writer import SceneWriter
+from .view_client import ViewClient, ViewPicture
+
+PREFIX = "pelage-blender-"
+FAR = 1000.0
+"""How far behind its view an orthographic viewport has its camera, in units: Blender shows what is behind it, too."""
+_sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
+
+
+def new_folder() -> str:
+    """A temporary folder whose name says which process it belongs to."""
+    return tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-")
+
+
+def remove_stale_folders() -> None:
+    """Removes folders of processes that are gone, which were killed."""
+    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        owner = path.name[len(PREFIX):].partition("-")[0]
+        if owner.isdigit() and not os.path.exists(f"/proc/{owner}") and os.path.exists("/proc/self"):
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def view_camera(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, notes: set[str]) -> dict[str, Any]:
+    """The camera of a viewport."""
+    view = context.region_data
+    projection = np.array(view.window_matrix, np.float64)
+    matrix = view.view_matrix.inverted()
+    camera = context.space_data.camera
+    if view.view_perspective == "CAMERA" and camera is not None and camera.type == "CAMERA":
+        return placement(matrix, 10.0) | optics(camera.evaluated_get(depsgraph), projection, notes)
+    if not view.is_perspective:
+        matrix.translation += matrix.col[2].xyz.normalized() * FAR
+    return placement(matrix, 10.0) | projected(projection, not view.is_perspective)
+
+
+class ViewportSession:
+    """The process, the folder and the picture of one viewport."""
+
+    def __init__(self, depsgraph: bpy.types.Depsgraph) -> None:
+        self.program = preferences.program()
+        self.folder = new_folder()
+        self.writer = SceneWriter(SceneFolder(pathlib.Path(self.folder)))
+        self.document: dict[str, Any] | None = None
+        self.client: ViewClient | None = None
+        self.texture: gpu.types.GPUTexture | None = None
+        self.shown = self.announced = -1
+        self.problem = ""
+        _sessions.add(self)
+
+    def write(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Writes what has changed in the scene."""
+        try:
+            size = max(context.region.width, 1), max(context.region.height, 1)
+            self.document = self.writer.write(depsgraph, size, camera=view_camera(context, depsgraph, self.writer.notes))
+            self.problem = ""
+        except (ValueError, OSError, MemoryError) as error:
+            self.problem = str(error)
+            return
+        if self.client is None:
+            scene = depsgraph.scene
+            threads = scene.render.threads if scene.render.threads_mode == "FIXED" else 0
+            self.client = ViewClient(self.program, str(pathlib.Path(self.folder) / "scene.yaml"), threads)
+
+    def follow_view(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Writes the camera if the view has moved or has another size."""
+        if self.document is None:
+            return
+        camera = view_camera(context, depsgraph, set())
+        image = {**self.document["image"], "width": max(context.region.width, 1), "height": max(context.region.height, 1)}
+        if (camera, image) != (self.document["camera"], self.document["image"]):
+            self.document = {**self.document, "camera": camera, "image": image}
+            self.writer.folder.put("scene.yaml", document_text(self.document))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draws the newest picture."""
+        picture = self.client.picture if self.client is not None else None
+        if picture is None:
+            return
+        if picture.version != self.shown or self.texture is None:
+            self.texture, self.shown = _texture(picture, context.scene.render.film_transparent), picture.version
+        rows, columns = picture.rgba.shape[:2]
+        factor = context.region.width / picture.width, context.region.height / picture.height
+        width, height = columns * picture.grid * factor[0], rows * picture.grid * factor[1]
+        gpu.state.blend_set("ALPHA_PREMULT")
+        draw_texture_2d(self.texture, (0, context.region.height - height), width, height)
+        gpu.state.blend_set("NONE")
+
+    def status(self) -> str:
+        """One line for the viewport."""
+        if self.problem or self.client is None:
+            return self.problem
+        if self.client.error:
+            return process.readable(self.client.error.splitlines()[0], pathlib.Path(self.folder) / "scene.yaml")
+        state = self.client.state
+        if state.get("done"):
+            return f"Samples {state.get('samples', 0):.0f}"
+        if state.get("stage"):
+            return f"{str(state['stage']).capitalize()} {100 * state.get('progress', 0):.0f} %"
+        return f"Samples {state.get('samples', 0):.0f} of {state.get('wanted_samples', 0)}"
+
+    def changed(self) -> bool:
+        """Whether there is something new to draw since the last call."""
+        picture = self.client.picture if self.client is not None else None
+        version = (picture.version if picture is not None else -1, self.status())
+        changed, self.announced = version != self.announced, version  # type: ignore[assignment]
+        return changed
+
+    def close(self) -> None:
+        _sessions.discard(self)
+        if self.client is not None:
+            self.client.close()
+            self.client = None
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def _texture(picture: ViewPicture, transparent: bool) -> gpu.types.GPUTexture:
+    rows, columns = picture.rgba.shape[:2]
+    rgba = picture.rgba.copy()
+    if not transparent:
+        rgba[..., 3] = 1  # Pelage's alpha is 0 where only the world is seen
+    pixels = gpu.types.Buffer("FLOAT", rgba.size, rgba.ravel())
+    return gpu.types.GPUTexture((columns, rows), format="RGBA16F", data=pixels)
+
+
+def follow(engine: Any) -> None:
+    """Redraws the viewport of an engine whenever there is something new, as long as the engine lives."""
+    reference = weakref.ref(engine)
+
+    def tick() -> float | None:
+        alive = reference()
+        try:
+            session = alive.session if alive is not None else None
+            if session is None:
+                return None
+            if session.changed():
+                alive.tag_redraw()  # type: ignore[union-attr]
+        except ReferenceError:  # Blender has freed the engine
+            return None
+        return 0.05
+
+    bpy.app.timers.register(tick, first_interval=0.05)
+
+
+def close_all() -> None:
+    for session in list(_sessions):
+        session.close()
+
+
+def register() -> None:
+    remove_stale_folders()
+    atexit.register(close_all)
+
+
+def unregister() -> None:
+    close_all()
+    atexit.unregister(close_all)
+
+
+CLASSES = ()
