@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from inside import (ROOT, camera, empty_scene, grey_plane, hairy, left_folders, light, material, mean, new_path, render, run,
                     set_world)
-from pelage import hair_particles
+from pelage_blender import hair_particles
 
 
 class Engine(unittest.TestCase):

@@ -14,9 +14,9 @@ BLENDER = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-
 BEGIN = f"""
 import sys
 sys.path.insert(0, {str(HERE)!r})
-import inside, bpy
+import inside, bpy, pelage_blender
 from inside import *
-pelage.register()
+pelage_blender.register()
 scene = empty_scene(64, 64)
 grey_plane()
 camera()

@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
 from inside import OUTPUT, camera, empty_scene, exr, left_folders, new_path, render, run, set_world
-from pelage import coat_presets, files, fur_operators, preferences, schema, scene_writer
+from pelage_blender import coat_presets, files, fur_operators, preferences, schema, scene_writer
 
 LAYERS = ["R", "G", "B"]
 

@@ -13,8 +13,8 @@ from mathutils import Vector
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "integrations" / "blender"))
-import pelage  # noqa: E402
-from pelage import exr  # noqa: E402
+import pelage_blender  # noqa: E402
+from pelage_blender import exr  # noqa: E402
 
 OUTPUT = pathlib.Path(tempfile.mkdtemp(prefix="pelage-test-"))
 shots = 0
@@ -22,7 +22,7 @@ shots = 0
 
 def run():
     """Runs the tests of the main module; the exit code of Blender says how they went."""
-    pelage.register()
+    pelage_blender.register()
     import __main__
     suite = unittest.defaultTestLoader.loadTestsFromModule(__main__)
     result = unittest.TextTestRunner(verbosity=2).run(suite)

@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ADDON = ROOT / "integrations" / "blender" / "pelage"
+ADDON = ROOT / "integrations" / "blender" / "pelage_blender"
 # The package itself imports bpy, so its modules are loaded into an empty one.
 package = types.ModuleType("addon")
 package.__path__ = [str(ADDON)]

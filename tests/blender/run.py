@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-BESIDE = {"plain", "exit_codes"}  # tests that Blender's Python does not run
+BESIDE = {"plain", "exit_codes", "package"}  # tests that Blender's Python does not run
 SKIPPED = 77
 FACTORY = ["--factory-startup", "--python-exit-code", "1"]
 

@@ -13,11 +13,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import inside
 import numpy as np
-from inside import light, pelage
-from pelage import viewport
+from inside import light, pelage_blender
+from pelage_blender import viewport
 
 PATIENCE_S = 30
-pelage.register()
+pelage_blender.register()
 
 
 def area():
@@ -56,7 +56,7 @@ def seen(x, y):
 def steps():
     """Each `yield` waits until the function that it gives is true."""
     scene = inside.empty_scene(new=False)
-    scene.pelage.viewport_samples = 1
+    scene.pelage.viewport_samples, scene.pelage.bounces = 1, 0
     scene.view_settings.view_transform = "Standard"
     inside.set_world(0.5)
     space = area().spaces[0]

@@ -7,6 +7,7 @@ import os
 import pathlib
 import shutil
 import tempfile
+import time
 import weakref
 from typing import Any
 
@@ -63,7 +64,8 @@ class ViewportSession:
         self.document: dict[str, Any] | None = None
         self.client: ViewClient | None = None
         self.texture: gpu.types.GPUTexture | None = None
-        self.shown = self.announced = -1
+        self.shown = -1
+        self.announced, self.announced_s = (-1, ""), 0.0
         self.problem = ""
         _sessions.add(self)
 
@@ -119,11 +121,13 @@ class ViewportSession:
         return f"Samples {state.get('samples', 0):.0f} of {state.get('wanted_samples', 0)}"
 
     def changed(self) -> bool:
-        """Whether there is something new to draw since the last call."""
+        """Whether there is something new to draw since the last call: a picture, or a status that is four to a second at most."""
         picture = self.client.picture if self.client is not None else None
-        version = (picture.version if picture is not None else -1, self.status())
-        changed, self.announced = version != self.announced, version  # type: ignore[assignment]
-        return changed
+        version, now = picture.version if picture is not None else -1, time.monotonic()
+        if version != self.announced[0] or (now - self.announced_s > 0.25 and self.status() != self.announced[1]):
+            self.announced, self.announced_s = (version, self.status()), now
+            return True
+        return False
 
     def close(self) -> None:
         _sessions.discard(self)

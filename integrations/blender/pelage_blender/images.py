@@ -20,7 +20,7 @@ def image_file(image: bpy.types.Image, folder: SceneFolder) -> tuple[pathlib.Pat
     A packed, generated or edited image is written to the folder as EXR.
     """
     space = "linear" if image.colorspace_settings.name in LINEAR else "srgb"
-    path = pathlib.Path(bpy.path.abspath(image.filepath_raw, library=image.library))
+    path = pathlib.Path(bpy.path.abspath(image.filepath_raw, library=image.library)).absolute()
     tiled = image.source == "TILED"
     on_disk = image.source in ("FILE", "TILED") and image.packed_file is None and not image.is_dirty
     if on_disk and (tiled or path.is_file()):
