@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
 from inside import OUTPUT, camera, empty_scene, exr, left_folders, new_path, render, run, set_world
-from pelage_blender import coat_presets, files, fur_operators, preferences, schema, scene_writer
+from pelage_blender import coat_presets, files, fur_operators, meshes, preferences, schema, scene_writer
 
 LAYERS = ["R", "G", "B"]
 
@@ -206,6 +206,25 @@ class Coats(unittest.TestCase):
         there = render()
         # Positions are rounded elsewhere, so single samples differ.
         self.assertGreater(np.corrcoef(here["R"].ravel(), there["R"].ravel())[0, 1], 0.999)
+
+    def test_a_deformed_and_subdivided_skin_keeps_its_rest_pose(self):
+        ob = furry()
+        at_rest = meshes.vertices_of(ob.data)
+        twist = ob.modifiers.new("twist", "SIMPLE_DEFORM")
+        twist.deform_method, twist.angle = "TWIST", 1
+        graph = bpy.context.evaluated_depsgraph_get()
+        truth = meshes.vertices_of(ob.evaluated_get(graph).data).copy()
+        for boundary in ("ALL", "PRESERVE_CORNERS"):
+            smooth = ob.modifiers.new("smooth", "SUBSURF")
+            smooth.levels, smooth.boundary_smooth = 2, boundary
+            graph = bpy.context.evaluated_depsgraph_get()
+            evaluated = ob.evaluated_get(graph)
+            cage = meshes.cage_of(evaluated, evaluated.data, False, True, [])
+            self.assertEqual(cage.scheme, "catmull-clark")
+            np.testing.assert_array_equal(cage.rest, at_rest)
+            np.testing.assert_allclose(cage.points, truth, atol=1e-5)  # the iteration ends at a millionth of the size
+            np.testing.assert_allclose(meshes.pose_of(evaluated, evaluated.data, cage), truth, atol=1e-5)
+            ob.modifiers.remove(smooth)
 
     def test_a_saved_file_has_the_same_coat(self):
         furry("WET")

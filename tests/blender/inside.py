@@ -33,8 +33,8 @@ def run():
 
 
 def left_folders():
-    """Folders that the add-on has left behind."""
-    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("pelage-blender-")]
+    """Folders that the add-on of this process has left behind."""
+    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith(f"pelage-blender-{os.getpid()}-")]
 
 
 def empty_scene(width=48, height=48, new=True):

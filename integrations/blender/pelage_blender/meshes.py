@@ -8,6 +8,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from .limit_cage import LimitMap
+
 DEFORMING = {"ARMATURE", "CAST", "CLOTH", "COLLISION", "CORRECTIVE_SMOOTH", "CURVE", "DATA_TRANSFER", "DISPLACE", "HOOK",
              "LAPLACIANDEFORM", "LAPLACIANSMOOTH", "LATTICE", "MESH_CACHE", "MESH_DEFORM", "MESH_SEQUENCE_CACHE",
              "NORMAL_EDIT", "SHRINKWRAP", "SIMPLE_DEFORM", "SMOOTH", "SOFT_BODY", "SURFACE", "SURFACE_DEFORM",
@@ -29,6 +31,7 @@ class Cage:
     rest: np.ndarray | None = None       # (n, 3) before modifiers; None: the same as points
     vertices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))  # (n,) vertex of Blender's mesh
     colors: np.ndarray | None = None     # (n, 3) vertex groups
+    limit: LimitMap | None = None        # of a cage that modifiers deform: finds it from the limit surface
 
 
 def _array(collection: Any, name: str, kind: Any, width: int = 1) -> np.ndarray:
@@ -87,15 +90,20 @@ def geometry_modifiers(ob: bpy.types.Object, render: bool) -> list[bpy.types.Mod
 
 
 def subdivision(ob: bpy.types.Object, render: bool) -> bpy.types.Modifier | None:
-    """The Catmull-Clark modifier of an object if it is the only one and Pelage can do the same."""
+    """The Catmull-Clark modifier of an object if it is the last one, only deforming ones precede it, and Pelage can do the same."""
     found = geometry_modifiers(ob, render)
-    if ob.type != "MESH" or len(found) != 1 or found[0].type != "SUBSURF" or ob.data.shape_keys is not None:
+    if ob.type != "MESH" or not found or found[-1].type != "SUBSURF" or any(m.type not in DEFORMING for m in found[:-1]):
         return None
-    modifier, mesh = found[0], ob.original.data
+    modifier, mesh = found[-1], ob.original.data
     levels = modifier.render_levels if render else modifier.levels
-    creased = modifier.use_creases and any(_array(mesh.edges, "crease", np.float32) > 0) if mesh.has_crease_edge else False
+    creased = modifier.use_creases and mesh.has_crease_edge and bool(np.any(_array(mesh.edges, "crease", np.float32) > 0))
     exact = modifier.subdivision_type == "CATMULL_CLARK" and levels > 0 and modifier.use_limit_surface and not creased
     return modifier if exact and len(mesh.polygons) else None
+
+
+def deforms(ob: bpy.types.Object, render: bool) -> bool:
+    """Whether something deforms the mesh before its last modifier."""
+    return len(geometry_modifiers(ob, render)) > 1 or ob.data.shape_keys is not None
 
 
 def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool, groups: list[str]) -> Cage | None:
@@ -105,12 +113,16 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
     meshes are not split at sharp edges.
     """
     modifier = subdivision(ob, render)
-    if modifier is not None:
+    if modifier is not None and (rest or not deforms(ob, render)):
         cage = read_mesh(ob.original.data, sharp=False)
         assert cage is not None
         cage.scheme = "catmull-clark"
         cage.boundary = "edge-only" if modifier.boundary_smooth == "ALL" else "edge-and-corner"
         cage.colors = _group_colors(ob, ob.original.data, groups)
+        if deforms(ob, render):
+            cage.limit = LimitMap(cage.sizes, cage.corners, len(cage.points), cage.boundary == "edge-and-corner")
+            cage.rest = cage.points
+            cage.points = cage.limit.cage(vertices_of(mesh)[:len(cage.points)])
         return cage
     cage = read_mesh(mesh, sharp=not rest)
     if cage is None or not rest or ob.type != "MESH":
@@ -125,6 +137,8 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
 
 def pose_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, cage: Cage) -> np.ndarray | None:
     """Points of the cage in the pose of `mesh`, the same object at another time; None if the mesh has changed."""
+    if cage.limit is not None:
+        return cage.limit.cage(vertices_of(mesh)[:len(cage.points)])
     if cage.scheme == "catmull-clark":
         return cage.points
     if len(mesh.vertices) <= (int(cage.vertices.max()) if len(cage.vertices) else 0):
