@@ -7,6 +7,7 @@ import os
 import pathlib
 import tempfile
 import traceback
+from typing import Any
 
 import bpy
 
@@ -139,7 +140,7 @@ class PelageEngine(bpy.types.RenderEngine):
 CLASSES = (PelageEngine,)
 
 
-def compatible_panels() -> list[type]:
+def compatible_panels() -> list[Any]:
     """Panels of Blender that make sense with this engine."""
     unwanted = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_eevee_sampling"}
     return [panel for panel in bpy.types.Panel.__subclasses__()

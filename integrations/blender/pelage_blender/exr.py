@@ -5,16 +5,18 @@ Reads what Pelage writes: scan lines, without compression or with ZIP. Encodes f
 """
 from __future__ import annotations
 
+import os
 import pathlib
 import struct
 import zlib
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 MAGIC = 20000630
-TYPES = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
+TYPES: dict[int, np.dtype] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 ROWS = {0: 1, 2: 1, 3: 16}  # number of rows that are compressed together, by compression
 Box = tuple[int, int, int, int]
 
@@ -79,19 +81,17 @@ def read_header(data: bytes) -> Header:
         raise ExrError(f"damaged EXR file: {error}") from error
 
 
-def _unpacked(data: bytes, size: int) -> np.ndarray:
-    """Undoes ZIP: inflates, adds up differences, and joins the two halves of the bytes."""
-    if len(data) >= size:
-        return np.frombuffer(data, np.uint8)[:size]
-    coded = np.frombuffer(zlib.decompress(data), np.uint8).copy()
+def _halves(data: bytes, size: int) -> np.ndarray:
+    """Undoes ZIP but for the last step: inflates and adds up differences. All even bytes come first, then all odd ones."""
+    if len(data) >= size:  # a block that did not become smaller is stored as it is
+        plain = np.frombuffer(data, np.uint8)[:size]
+        return np.concatenate([plain[0::2], plain[1::2]])
+    coded = np.frombuffer(bytearray(zlib.decompress(data)), np.uint8)
     if coded.size != size:
         raise ExrError("damaged EXR file: a block has another size")
     coded[1:] -= 128  # each byte is the difference from the previous one, plus 128
     np.cumsum(coded, dtype=np.uint8, out=coded)
-    result = np.empty(size, np.uint8)
-    half = (size + 1) // 2
-    result[0::2], result[1::2] = coded[:half], coded[half:]
-    return result
+    return coded
 
 
 def read(path: str | pathlib.Path, wanted: Callable[[str], bool] = lambda name: True
@@ -112,19 +112,25 @@ def _read_channels(data: bytes, header: Header, wanted: Callable[[str], bool]) -
     pixels = {name: np.empty((height, width), np.float32) for name, _ in header.channels if wanted(name)}
     row_bytes = width * sum(kind.itemsize for _, kind in header.channels)
     step = ROWS[header.compression]
-    blocks = -(-height // step)
-    for offset in struct.unpack_from(f"<{blocks}Q", data, header.end):
+
+    def read_block(offset: int) -> None:
         y, size = struct.unpack_from("<ii", data, offset)
         top, rows = y - header.data[1], min(step, header.data[3] - y)
         if not 0 <= top < height or offset + 8 + size > len(data):
             raise ExrError("damaged EXR file: a block is outside the picture or the file")
-        block = _unpacked(data[offset + 8:offset + 8 + size], row_bytes * rows).reshape(rows, row_bytes)
+        even, odd = _halves(data[offset + 8:offset + 8 + size], row_bytes * rows).reshape(2, rows, row_bytes // 2)
         at = 0
         for name, kind in header.channels:
+            half = width * kind.itemsize // 2
             if name in pixels:
-                part = np.ascontiguousarray(block[:, at:at + width * kind.itemsize])
+                part = np.empty((rows, 2 * half), np.uint8)
+                part[:, 0::2], part[:, 1::2] = even[:, at:at + half], odd[:, at:at + half]
                 pixels[name][top:top + rows] = part.view(kind)
-            at += width * kind.itemsize
+            at += half
+
+    offsets = struct.unpack_from(f"<{-(-height // step)}Q", data, header.end)
+    with ThreadPoolExecutor(min(os.cpu_count() or 1, 16)) as pool:  # zlib and numpy let threads run side by side
+        list(pool.map(read_block, offsets))
     return pixels
 
 

@@ -197,9 +197,9 @@ class PELAGE_OT_value_set(_OnMesh, bpy.types.Operator):
             at = key.choices.index(operator[key.name]) if operator.get(key.name) in key.choices else -1
             operator[key.name] = key.choices[(at + 1) % len(key.choices)]
         elif self.action == "MAP":
-            at = next((i for i, m in enumerate(operator.maps) if m.key == key.name), None)
-            if at is not None:
-                operator.maps.remove(at)
+            there = [i for i, m in enumerate(operator.maps) if m.key == key.name]
+            if there:
+                operator.maps.remove(there[0])
             else:
                 operator.maps.add().key = key.name
         context.object.update_tag()

@@ -140,7 +140,8 @@ class MaterialConverter:
             self.notes.add("mixed shaders: only one of them")
             shaders = [linked_node(s) for s in node.inputs if s.type == "SHADER"]
             known = [n for n in shaders if n is not None]
-            node = max(known, key=lambda n: n.type not in ("BSDF_TRANSPARENT", "EMISSION"), default=None)
+            opaque = [n for n in known if n.type not in ("BSDF_TRANSPARENT", "EMISSION")]
+            node = next(iter(opaque + known), None)
         return node
 
     @staticmethod

@@ -55,7 +55,10 @@ class Picture:
     def _stacked(self, names: tuple[str, ...]) -> FLOATS | None:
         if any(name not in self.channels for name in names):
             return None
-        return np.stack([self.channels[name][::-1].ravel() for name in names], axis=1)
+        result = np.empty((self.header.height, self.header.width, len(names)), np.float32)
+        for index, name in enumerate(names):
+            result[..., index] = self.channels[name][::-1]
+        return result.reshape(-1, len(names))
 
     def combined(self, transparent: bool) -> FLOATS:
         """RGBA (pixels, 4)."""

@@ -17,7 +17,7 @@ import numpy as np
 GUARD = 'exec 3<&0; "$@" </dev/null & p=$!; cat <&3 >/dev/null; kill $p 2>/dev/null; wait $p'
 ADDRESS = re.compile(r"http://([^:/]+):(\d+)/\?token=(\w+)")
 POLL_S = 0.04
-TYPES = {"half": np.dtype("<f2"), "float": np.dtype("<f4"), "uint": np.dtype("<u4")}
+TYPES: dict[str, np.dtype] = {"half": np.dtype("<f2"), "float": np.dtype("<f4"), "uint": np.dtype("<u4")}
 
 
 @dataclass
