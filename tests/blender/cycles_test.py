@@ -12,7 +12,7 @@ from inside import camera, empty_scene, grey_plane, hairy, light, material, mean
 
 
 class Lights(unittest.TestCase):
-    """Mean of a grey plane within 2 %. The noise of 16 samples of 2304 pixels is below 0.5 %."""
+    """Mean of a grey plane within 2 %. The noise of 8 samples of 2304 pixels is below 0.7 %."""
 
     def setUp(self):
         empty_scene()
@@ -20,7 +20,7 @@ class Lights(unittest.TestCase):
         camera((0, -3, 3))
 
     def ratio(self):
-        ours, truth = render("PELAGE", 16), render("CYCLES", 16)
+        ours, truth = render("PELAGE", 8), render("CYCLES", 8)
         self.assertGreater(mean(truth), 0.01)
         return mean(ours) / mean(truth)
 
@@ -52,7 +52,7 @@ class Lights(unittest.TestCase):
         self.assertAlmostEqual(self.ratio(), 1.25, delta=0.025)
 
     def test_spot(self):
-        for size, blend in ((50, 0), (50, 0.5), (120, 1)):
+        for size, blend in ((50, 0), (120, 1)):
             ob = light("SPOT", (0.5, 0, 2), energy=200, shadow_soft_size=0.01, spot_size=math.radians(size), spot_blend=blend)
             self.assertAlmostEqual(self.ratio(), 1, delta=0.02)
             bpy.data.objects.remove(ob)
@@ -66,7 +66,7 @@ class Cameras(unittest.TestCase):
     """Silhouettes: less than 1 % of the pixels differ by more than half."""
 
     def differing(self):
-        ours, truth = render("PELAGE", 8), render("CYCLES", 8)
+        ours, truth = render("PELAGE", 4), render("CYCLES", 4)
         self.assertGreater(truth["A"].mean(), 0.03)
         return float((np.abs(ours["A"] - truth["A"]) > 0.5).mean())
 
@@ -79,13 +79,13 @@ class Cameras(unittest.TestCase):
             setattr(ob.data, key, value)
 
     def test_sensors_and_shift(self):
-        for size in ((80, 48), (48, 80)):
-            for values in ({"shift_x": 0.1, "shift_y": -0.07}, {"sensor_fit": "VERTICAL"}, {"sensor_fit": "HORIZONTAL"},
-                           {"type": "ORTHO", "ortho_scale": 4, "shift_x": 0.1}):
-                self.scene(*size, **values)
-                bpy.ops.mesh.primitive_monkey_add(rotation=(0.3, 0.2, 0.1))
-                bpy.context.object.scale = (1, 0.5, 1.5)
-                self.assertLess(self.differing(), 0.01, (size, values))
+        for size, values in (((80, 48), {"shift_x": 0.1, "shift_y": -0.07}), ((80, 48), {"sensor_fit": "VERTICAL"}),
+                             ((48, 80), {"sensor_fit": "HORIZONTAL"}), ((48, 80), {"type": "ORTHO", "ortho_scale": 4,
+                                                                                   "shift_x": 0.1})):
+            self.scene(*size, **values)
+            bpy.ops.mesh.primitive_monkey_add(rotation=(0.3, 0.2, 0.1))
+            bpy.context.object.scale = (1, 0.5, 1.5)
+            self.assertLess(self.differing(), 0.01, (size, values))
 
     def test_a_cage_and_polygons(self):
         for levels in (0, 4):
@@ -99,7 +99,7 @@ class Cameras(unittest.TestCase):
         bpy.ops.mesh.primitive_monkey_add()
         dof = bpy.context.scene.camera.data.dof
         dof.use_dof, dof.focus_distance, dof.aperture_fstop = True, 3, 0.1
-        ours, truth = render("PELAGE", 64), render("CYCLES", 64)
+        ours, truth = render("PELAGE", 48), render("CYCLES", 48)
         sharp = render("PELAGE", 4) if not setattr(dof, "use_dof", False) else None
         blur = np.abs(truth["A"] - sharp["A"]).mean()
         # Binomial noise of both, 0.06 in blurred pixels, is a fifth of the blur.
@@ -126,9 +126,8 @@ class Hair(unittest.TestCase):
         return hair.node_tree.nodes["Principled Hair BSDF"]
 
     def test_means_and_silhouettes(self):
-        for kind, inputs in (("COLOR", {"Color": (0.5, 0.3, 0.15, 1)}),
-                             ("MELANIN", {"Melanin": 0.4, "Melanin Redness": 0.7, "Random Color": 0}),
-                             ("ABSORPTION", {"Absorption Coefficient": (0.2, 0.5, 1.0), "Roughness": 0.2})):
+        for kind, inputs in (("COLOR", {"Color": (0.5, 0.3, 0.15, 1), "Roughness": 0.2}),
+                             ("MELANIN", {"Melanin": 0.4, "Melanin Redness": 0.7, "Random Color": 0})):
             self.furry(**inputs).parametrization = kind
             ours, truth = render("PELAGE", 24), render("CYCLES", 24)
             self.assertAlmostEqual(mean(ours) / mean(truth), 1, delta=0.05, msg=kind)

@@ -22,7 +22,7 @@ class Engine(unittest.TestCase):
         scene = bpy.context.scene
         scene.render.engine = "PELAGE"
         scene.render.resolution_x, scene.render.resolution_y = 96, 54
-        scene.pelage.samples = 4
+        scene.pelage.samples = 1
         hairy(bpy.data.objects["Cube"], 10000, render_step=2)
         set_world(0)
         picture = render()
@@ -111,14 +111,13 @@ class Engine(unittest.TestCase):
         coordinates = tree.nodes.new("ShaderNodeTexCoord")
         tree.links.new(coordinates.outputs["Generated"], mapping.inputs["Vector"])
         tree.nodes["Background"].inputs["Strength"].default_value = 1
-        for turn in (0, 1):
-            mapping.inputs["Rotation"].default_value[2] = turn
-            camera((0, 0, 0), (1, 2, 0.5))
-            ours, truth = render("PELAGE", 16), render("CYCLES", 16)
-            for channel in "RGB":
-                # The same image is seen directly, so only the filter of the picture differs.
-                self.assertAlmostEqual(ours[channel].mean() / truth[channel].mean(), 1, delta=0.02)
-                self.assertGreater(np.corrcoef(ours[channel].ravel(), truth[channel].ravel())[0, 1], 0.99)
+        mapping.inputs["Rotation"].default_value[2] = 1
+        camera((0, 0, 0), (1, 2, 0.5))
+        ours, truth = render("PELAGE", 8), render("CYCLES", 8)
+        for channel in "RGB":
+            # The same image is seen directly, so only the filter of the picture differs.
+            self.assertAlmostEqual(ours[channel].mean() / truth[channel].mean(), 1, delta=0.02)
+            self.assertGreater(np.corrcoef(ours[channel].ravel(), truth[channel].ravel())[0, 1], 0.99)
 
     def test_a_region_is_a_part_of_the_picture(self):
         scene = empty_scene(64, 48)

@@ -16,7 +16,7 @@ FACTORY = ["--factory-startup", "--python-exit-code", "1"]
 
 def with_window(path, environment):
     """In a window on a virtual display; afterwards, nothing may be left."""
-    blender = ["xvfb-run", "-a", "-s", "-screen 0 400x300x24", "blender", *FACTORY, "-p", "0", "0", "400", "300", "-P", path]
+    blender = ["xvfb-run", "-a", "-s", "-screen 0 320x240x24", "blender", *FACTORY, "-p", "0", "0", "320", "240", "-P", path]
     result = subprocess.run(blender, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     print(result.stdout)
     left = re.search(r"folder (\S+) process (\d+)", result.stdout)

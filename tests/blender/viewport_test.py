@@ -57,6 +57,7 @@ def steps():
     """Each `yield` waits until the function that it gives is true."""
     scene = inside.empty_scene(new=False)
     scene.pelage.viewport_samples, scene.pelage.bounces = 1, 0
+    scene.pelage.integrator = "path"  # the cheapest for one sample
     scene.view_settings.view_transform = "Standard"
     inside.set_world(0.5)
     space = area().spaces[0]
@@ -69,6 +70,7 @@ def steps():
     first = session()
     folder, process = first.folder, first.client.process
     assert os.path.isdir(folder)
+    print("pelage viewport test: size", first.client.picture.width, first.client.picture.height, flush=True)
     # The world of 0.5 is 188 of 255 in sRGB, and the ball reflects 0.8 of it.
     for place, linear, noise in (((0.05, 0.05), 0.5, 0.005), ((0.5, 0.5), 0.4, 0.08)):  # one sample
         expected = 1.055 * linear ** (1 / 2.4) - 0.055

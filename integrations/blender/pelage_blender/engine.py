@@ -142,7 +142,8 @@ CLASSES = (PelageEngine,)
 
 def compatible_panels() -> list[Any]:
     """Panels of Blender that make sense with this engine."""
-    unwanted = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_eevee_sampling"}
+    unwanted = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_eevee_sampling", "DATA_PT_light",
+                "RENDER_PT_freestyle"}
     return [panel for panel in bpy.types.Panel.__subclasses__()
             if "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in unwanted]
 
