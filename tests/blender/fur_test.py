@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import OUTPUT, camera, empty_scene, exr, left_folders, new_path, render, run, set_world
+from inside import OUTPUT, camera, empty_scene, exr, hairy, left_folders, new_path, render, run, set_world
 from pelage_blender import coat_presets, files, fur_operators, meshes, preferences, schema, scene_writer
 
 LAYERS = ["R", "G", "B"]
@@ -197,6 +197,29 @@ class Coats(unittest.TestCase):
         rows = lambda mask: np.flatnonzero(mask.any(axis=1))
         self.assertLess(rows(guided)[0], rows(straight)[0] - 2)        # hair rises upwards,
         self.assertGreaterEqual(rows(guided)[-1], rows(straight)[-1] - 3)  # and not elsewhere
+
+    def test_particle_hair_shapes_the_coat_and_is_not_rendered(self):
+        ob = furry("SHORT", 500)
+        ob.location, ob.scale = (1, 2, 3), (2, 2, 2)
+        hairy(ob, 200, 0.5, child_type="INTERPOLATED", child_nbr=2)
+        coat = ob.pelage.coats[0]
+        self.assertEqual(len(document()["grooms"]), 2)
+        coat.guide_hair = ob.particle_systems[0].name
+        grooms = document()["grooms"]
+        self.assertEqual(len(grooms), 1)
+        self.assertIn("guides", next(iter(grooms.values()))["operators"][0])
+        points = OUTPUT / f"document{len(os.listdir(OUTPUT)) - 1}" / next(iter(grooms.values()))["operators"][0]["guides"]["file"]
+        data = points.read_bytes()
+        self.assertEqual(int.from_bytes(data[4:8], "little"), 200)
+        roots = np.frombuffer(data, "<f4", 200 * 5 * 3, 128).reshape(200, 5, 3)[:, 0]
+        # At rest, the ball has twice its radius and is at the origin; its faces are inside the sphere.
+        radius = np.linalg.norm(roots, axis=1)
+        self.assertLess(radius.max(), 2.001)
+        self.assertGreater(radius.min(), 1.7)
+        coat.guide_hair = "none"
+        with self.assertRaises(RuntimeError) as caught:
+            render()
+        self.assertIn("'none'", str(caught.exception))
 
     def test_a_coat_moves_with_its_object(self):
         ob = furry()

@@ -40,6 +40,7 @@ class Item:
     shown: bool
     poses: list[np.ndarray]  # per motion key: points (n, 3) in world space and with the axes of Pelage
     hair: list[Hair] = field(default_factory=list)
+    guides: dict[str, HairStrands] = field(default_factory=dict)  # parents of particle hair that shapes coats, in world space
 
     @property
     def moves(self) -> bool:
@@ -89,7 +90,13 @@ def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, rende
     materials = [_material(ob, int(slot)) for slot in range(max(1, len(ob.material_slots)))]
     item = Item(ob.name, ob.original, cage, matrix, materials, bool(instance.show_self),
                 [to_pelage(transformed(cage.points, matrix))])
+    guides = {coat.guide_hair for coat in ob.original.pelage.coats if coat.enabled}
     for _, system in systems:
+        if system.name in guides:
+            parents = read_hair(ob, system, render, parents=True)
+            if parents is not None:
+                item.guides[system.name] = parents
+            continue
         strands = read_hair(ob, system, render)
         if strands is not None:
             if instance.is_instance:

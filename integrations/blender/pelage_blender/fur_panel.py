@@ -56,6 +56,7 @@ class PELAGE_PT_fur(_FurPanel, bpy.types.Panel):
         column.use_property_split, column.use_property_decorate = True, False
         for name in ("strands", "points", "seed", "role", "guides"):
             column.prop(coat, name)
+        column.prop_search(coat, "guide_hair", context.object, "particle_systems")
         column.prop(coat, "use_density")
         if coat.use_density:
             draw_map(column, context.object, coat.density)

@@ -54,6 +54,8 @@ class PelageCoat(bpy.types.PropertyGroup):
     guides: PointerProperty(name="Guides", type=bpy.types.Object,  # type: ignore[valid-type]
                             poll=lambda self, ob: ob.type == "CURVES",
                             description="Hair Curves whose shape the strands take")
+    guide_hair: StringProperty(name="Guide Hair",  # type: ignore[valid-type]
+                               description="Particle hair of this mesh whose shape the strands take, in place of being rendered")
     material: PointerProperty(name="Material", type=bpy.types.Material,  # type: ignore[valid-type]
                               description="Material with a Principled Hair BSDF. Empty: the colours below")
     root_color: FloatVectorProperty(name="Root", subtype="COLOR", min=0, max=1, default=(0.1, 0.06, 0.04))  # type: ignore
@@ -133,15 +135,25 @@ def _operator(writer: SceneWriter, ob: bpy.types.Object, operator: PelageOperato
 
 
 def _guides(writer: SceneWriter, item: Item, coat: PelageCoat) -> list[dict[str, Any]]:
-    if coat.guides is None:
-        return []
-    to_object = item.original.matrix_world.inverted_safe()
-    strands = read_curves(coat.guides.data, coat.guides.matrix_world)
-    if strands is None:
-        raise ValueError(f"the guides '{coat.guides.name}' have no curves")
-    points = to_pelage(transformed(strands.points, to_object) * rest_scale(item))
-    file = writer.file(f"{item.name} guides.hair", hair_bytes(points, strands.widths, strands.counts))
-    return [{"guides": {"file": file, "basis": "catmull-rom"}}]
+    """The operator `guides` of hair Curves and of particle hair."""
+    strands, matrix = [], item.original.matrix_world
+    if coat.guides is not None:
+        curves = read_curves(coat.guides.data, coat.guides.matrix_world)
+        if curves is None:
+            raise ValueError(f"the guides '{coat.guides.name}' have no curves")
+        strands.append((curves, matrix))
+    if coat.guide_hair:
+        if coat.guide_hair not in item.guides:
+            raise ValueError(f"'{item.name}' has no particle hair '{coat.guide_hair}' for guides")
+        strands.append((item.guides[coat.guide_hair], item.matrix))
+        if item.cage.rest is not None and not np.array_equal(item.cage.rest, item.cage.points):
+            writer.notes.add("guide hair on a deformed mesh: it shapes the coat as it is in the pose of the frame")
+    result = []
+    for number, (hair, world) in enumerate(strands):
+        points = to_pelage(transformed(hair.points, world.inverted_safe()) * rest_scale(item))
+        file = writer.file(f"{item.name} guides {number}.hair", hair_bytes(points, hair.widths, hair.counts))
+        result.append({"guides": {"file": file, "basis": "catmull-rom"}})
+    return result
 
 
 def write_coat(writer: SceneWriter, item: Item, skin: str, coat: PelageCoat) -> dict[str, str]:

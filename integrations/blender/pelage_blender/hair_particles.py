@@ -129,9 +129,10 @@ def tapered(along: np.ndarray, settings: Any) -> np.ndarray:
     return settings.radius_scale * (rest * (settings.root_radius - settings.tip_radius) + settings.tip_radius)
 
 
-def read_hair(ob: bpy.types.Object, system: Any, render: bool) -> HairStrands | None:
-    """The strands of a particle system of an evaluated object; None if there are none."""
-    numbers, steps = strand_range(system, render), steps_of(system, render)
+def read_hair(ob: bpy.types.Object, system: Any, render: bool, parents: bool = False) -> HairStrands | None:
+    """The strands of a particle system of an evaluated object, or its parents only; None if there are none."""
+    numbers = range(len(system.particles)) if parents else strand_range(system, render)
+    steps = steps_of(system, render)
     if len(numbers) == 0:
         return None
     keys, segments = read_keys(ob, system, numbers, steps)
