@@ -49,7 +49,7 @@ class ExitCodes(unittest.TestCase):
                 words = entry.read_bytes().split(b"\0")
             except OSError:
                 continue
-            if any(self.folder.name.encode() in word for word in words) and b"render" in words:
+            if any(self.folder.name.encode() in word for word in words) and words[1:2] == [b"render"]:
                 found.append(int(entry.parent.name))
         return found
 
@@ -94,6 +94,21 @@ class ExitCodes(unittest.TestCase):
         text = process.communicate(timeout=60)[0]
         self.assertEqual(process.returncode, 1, text)
         self.assertIn("signal 9", text)
+        self.assertEqual(self.left(), [])
+
+    def test_the_program_ends_with_a_blender_that_is_killed(self):
+        process = self.blender("scene.pelage.samples = 100000\n", "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")
+        self.wait_for_child(process)
+        process.kill()
+        process.communicate()
+        for _ in range(100):
+            if not self.children():
+                break
+            time.sleep(0.05)
+        self.assertEqual(self.children(), [])
+        self.assertEqual(len(self.left()), 1)
+        process = self.blender("")  # the next start removes the folder
+        process.communicate(timeout=60)
         self.assertEqual(self.left(), [])
 
 

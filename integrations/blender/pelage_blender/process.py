@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import threading
 import time
@@ -38,15 +39,27 @@ def find_program(wanted: str = "") -> str:
     return found
 
 
-def end(process: subprocess.Popen[Any], patience_s: float = 2.0) -> None:
-    """Ends a process: asks it first, and kills it if it does not end."""
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(patience_s)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+# The shell asks the program to end when its standard input ends: also when this process is killed. Its exit code is that of the
+# program, or 128 + the number of the signal that ended it.
+GUARD = ('exec 3<&0; "$@" </dev/null 3<&- & p=$!; { cat <&3 >/dev/null; kill $p 2>/dev/null; } & c=$!; '
+         'wait $p; code=$?; kill $c 2>/dev/null; exit $code')
+
+
+def start(command: list[str], **options: Any) -> subprocess.Popen[str]:
+    """Starts a program that ends with this process, in a session of its own, so that Ctrl-C in a terminal does not reach it."""
+    return subprocess.Popen(["sh", "-c", GUARD, "sh", *command], stdin=subprocess.PIPE, text=True, encoding="utf-8",
+                            errors="replace", start_new_session=True, **options)
+
+
+def end(process: subprocess.Popen[str], patience_s: float = 3.0) -> None:
+    """Ends a program of start(): asks it first, and kills it if it does not end."""
+    assert process.stdin is not None
+    process.stdin.close()
+    try:
+        process.wait(patience_s)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
 class Output(threading.Thread):
@@ -87,11 +100,9 @@ def readable(line: str, scene: pathlib.Path) -> str:
 def run_render(command: list[str], scene: pathlib.Path, stopped: Callable[[], bool],
                progress: Callable[[str, float], None]) -> Output:
     """Runs `pelage render` to its end. Raises Cancelled or PelageFailed; in every case the process has ended."""
-    try:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                   text=True, encoding="utf-8", errors="replace", start_new_session=True, cwd=scene.parent)
-    except OSError as error:
-        raise PelageFailed(f"{command[0]} cannot be started: {error.strerror}") from error
+    if not os.access(command[0], os.X_OK) and shutil.which(command[0]) is None:
+        raise PelageFailed(f"{command[0]} cannot be run")
+    process = start(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=scene.parent)
     output = Output(process)
     try:
         while process.poll() is None:
@@ -106,6 +117,7 @@ def run_render(command: list[str], scene: pathlib.Path, stopped: Callable[[], bo
             process.stderr.close()
     if process.returncode != 0:
         lines = [readable(line, scene) for line in output.mistakes if line]
-        crash = f"pelage was ended by signal {-process.returncode}" if process.returncode < 0 else "pelage failed"
-        raise PelageFailed("\n".join(lines[:8]) or crash)
+        number = process.returncode - 128 if process.returncode > 128 else -process.returncode
+        crash = f"pelage was ended by signal {number}" if number > 0 else "pelage failed"
+        raise PelageFailed("\n".join(lines[:8]) if lines and number <= 0 else crash)
     return output

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-# The shell ends the program when its standard input ends: also when this process is killed.
-GUARD = 'exec 3<&0; "$@" </dev/null & p=$!; cat <&3 >/dev/null; kill $p 2>/dev/null; wait $p'
+from .process import end, start
+
 ADDRESS = re.compile(r"http://([^:/]+):(\d+)/\?token=(\w+)")
 POLL_S = 0.04
 TYPES: dict[str, np.dtype] = {"half": np.dtype("<f2"), "float": np.dtype("<f4"), "uint": np.dtype("<u4")}
@@ -49,9 +49,8 @@ class ViewClient:
     """A running `pelage view` of a scene file; `picture` is its newest picture."""
 
     def __init__(self, program: str, scene: str, threads: int = 0) -> None:
-        command = ["sh", "-c", GUARD, "sh", program, "view", scene] + (["--threads", str(threads)] if threads else [])
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                        text=True, start_new_session=True)
+        command = [program, "view", scene] + (["--threads", str(threads)] if threads else [])
+        self.process = start(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         self.picture: ViewPicture | None = None
         self.state: dict[str, Any] = {}
         self.error = ""
@@ -62,13 +61,7 @@ class ViewClient:
     def close(self) -> None:
         """Ends the program and the thread."""
         self._closing.set()
-        try:
-            assert self.process.stdin is not None
-            self.process.stdin.close()
-            self.process.wait(3)
-        except (OSError, subprocess.TimeoutExpired):
-            self.process.kill()
-            self.process.wait()
+        end(self.process)
         self._thread.join(3)
         if self.process.stdout is not None:
             self.process.stdout.close()
