@@ -65,8 +65,8 @@ class Lights(unittest.TestCase):
 class Cameras(unittest.TestCase):
     """Silhouettes: less than 1 % of the pixels differ by more than half."""
 
-    def differing(self):
-        ours, truth = render("PELAGE", 4), render("CYCLES", 4)
+    def differing(self, samples=4):
+        ours, truth = render("PELAGE", samples), render("CYCLES", samples)
         self.assertGreater(truth["A"].mean(), 0.03)
         return float((np.abs(ours["A"] - truth["A"]) > 0.5).mean())
 
@@ -93,6 +93,28 @@ class Cameras(unittest.TestCase):
             bpy.ops.mesh.primitive_cube_add()
             bpy.context.object.modifiers.new("smooth", "SUBSURF").render_levels = levels
             self.assertLess(self.differing(), 0.01)
+
+    def test_instances_text_and_hidden_emitters(self):
+        self.scene()
+        collection = bpy.data.collections.new("source")
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5)
+        ball = bpy.context.object
+        hairy(ball, 60, 0.5, root_radius=8, brownian_factor=0.05)
+        bpy.context.collection.objects.unlink(ball)
+        collection.objects.link(ball)
+        for x, scale in ((-1.5, (1, 1, 1)), (0, (-1, 1, 1)), (1.5, (1, 0.5, 1.4))):
+            empty = bpy.data.objects.new("instance", None)
+            empty.instance_type, empty.instance_collection = "COLLECTION", collection
+            empty.location, empty.scale, empty.rotation_euler = (x, 0, 0), scale, (0, 0.3 * x, 0.2)
+            bpy.context.collection.objects.link(empty)
+        bpy.ops.object.text_add(location=(-1, 0, 1), rotation=(1.4, 0, 0))
+        bpy.context.object.data.body = "Fell ü"
+        bpy.context.object.data.extrude = 0.1
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.5, location=(0, 0, -1.2))
+        hairy(bpy.context.object, 60, 0.5, root_radius=8)
+        bpy.context.object.show_instancer_for_render = False
+        bpy.context.scene.pelage.lod = False
+        self.assertLess(self.differing(16), 0.01)
 
     def test_depth_of_field(self):
         self.scene()

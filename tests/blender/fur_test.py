@@ -249,6 +249,12 @@ class Coats(unittest.TestCase):
             np.testing.assert_allclose(meshes.pose_of(evaluated, evaluated.data, cage), truth, atol=1e-5)
             ob.modifiers.remove(smooth)
 
+    def test_fur_on_a_mirrored_mesh_grows_outward(self):
+        ob = furry("LONG")
+        plain = render()["A"].mean()
+        ob.scale = (-1, 1, 1)
+        self.assertAlmostEqual(render()["A"].mean() / plain, 1, delta=0.05)  # other strands, and a ball without hair has 0.6
+
     def test_a_saved_file_has_the_same_coat(self):
         furry("WET")
         before = render()

@@ -15,10 +15,10 @@ from .axes import to_pelage, transformed
 from .hair_curves import read_curves
 from .hair_particles import HairStrands, hair_systems, read_hair
 from .lights import light_block
-from .meshes import Cage, cage_of, pose_of
+from .meshes import Cage, cage_of, pose_of, turned_over
 
 SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-Key = tuple[str, tuple[int, ...]]
+Key = tuple[str, tuple[Any, ...]]
 Notes = set[str]
 
 
@@ -29,7 +29,7 @@ class Hair:
     material: bpy.types.Material | None
 
 
-@dataclass
+@dataclass(eq=False)
 class Item:
     """A surface with its hair."""
     name: str
@@ -66,7 +66,8 @@ class Stage:
 def _instances(depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[Key, bpy.types.Object, Any]]:
     for instance in depsgraph.object_instances:
         ob = instance.object
-        persistent = tuple(instance.persistent_id) if instance.is_instance else ()
+        # The numbers are those of the instancer, so they are unique together with its name.
+        persistent = (instance.parent.name_full, *instance.persistent_id) if instance.is_instance else ()
         yield (ob.name_full, persistent), ob, instance
 
 
@@ -87,6 +88,8 @@ def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, rende
         ob.to_mesh_clear()
     if cage is None:
         return
+    if matrix.determinant() < 0:
+        turned_over(cage)
     materials = [_material(ob, int(slot)) for slot in range(max(1, len(ob.material_slots)))]
     item = Item(ob.name, ob.original, cage, matrix, materials, bool(instance.show_self),
                 [to_pelage(transformed(cage.points, matrix))])

@@ -167,6 +167,17 @@ def _group_colors(ob: bpy.types.Object, mesh: bpy.types.Mesh, groups: list[str])
     return colors
 
 
+def turned_over(cage: Cage) -> None:
+    """Reverses the corners of each face: the object is mirrored, and its outer side stays outside."""
+    starts = np.concatenate([[0], np.cumsum(cage.sizes)]).astype(np.int64)
+    place = np.arange(len(cage.corners))
+    face = np.repeat(np.arange(len(cage.sizes)), cage.sizes)
+    order = starts[face] + starts[face + 1] - 1 - place
+    cage.corners = cage.corners[order]
+    if cage.uvs is not None:
+        cage.uvs = cage.uvs[order]
+
+
 def faces_of_slot(cage: Cage, slot: int) -> Cage:
     """The faces with one material, with the vertices that they need."""
     chosen = cage.slots == slot
