@@ -54,7 +54,7 @@ class ExitCodes(unittest.TestCase):
         return found
 
     def wait_for_child(self, process):
-        for _ in range(600):
+        for _ in range(3000):
             if self.children():
                 return self.children()[0]
             self.assertIsNone(process.poll(), "Blender has ended")
@@ -63,7 +63,7 @@ class ExitCodes(unittest.TestCase):
 
     def test_a_picture_is_0(self):
         process = self.blender("", "-o", f"{self.path}/ü '#.png", "-F", "PNG", "-f", "1")
-        text = process.communicate(timeout=120)[0]
+        text = process.communicate(timeout=300)[0]
         self.assertEqual(process.returncode, 0, text)
         self.assertTrue((self.path / "ü '1.png").exists(), text)
         self.assertEqual(self.left(), [])
@@ -71,7 +71,7 @@ class ExitCodes(unittest.TestCase):
     def test_an_error_is_1_and_no_picture(self):
         process = self.blender("scene.pelage.memory = 64\nscene.render.resolution_x = scene.render.resolution_y = 4000\n",
                                "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")
-        text = process.communicate(timeout=120)[0]
+        text = process.communicate(timeout=300)[0]
         self.assertEqual(process.returncode, 1, text)
         self.assertIn("memory", text)
         self.assertEqual(list(self.path.glob("*.png")), [])
@@ -83,7 +83,7 @@ class ExitCodes(unittest.TestCase):
         child = self.wait_for_child(process)
         self.assertNotEqual(os.getsid(child), os.getsid(process.pid))
         os.kill(process.pid, signal.SIGINT)
-        text = process.communicate(timeout=60)[0]
+        text = process.communicate(timeout=300)[0]
         self.assertEqual(process.returncode, 1, text)
         self.assertEqual(list(self.path.glob("*.png")), [])
         self.assertEqual((self.left(), self.children()), ([], []))
@@ -91,7 +91,7 @@ class ExitCodes(unittest.TestCase):
     def test_a_killed_program_is_an_error_of_blender(self):
         process = self.blender("scene.pelage.samples = 100000\n", "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")
         os.kill(self.wait_for_child(process), signal.SIGKILL)
-        text = process.communicate(timeout=60)[0]
+        text = process.communicate(timeout=300)[0]
         self.assertEqual(process.returncode, 1, text)
         self.assertIn("signal 9", text)
         self.assertEqual(self.left(), [])
@@ -101,14 +101,14 @@ class ExitCodes(unittest.TestCase):
         self.wait_for_child(process)
         process.kill()
         process.communicate()
-        for _ in range(100):
+        for _ in range(600):
             if not self.children():
                 break
             time.sleep(0.05)
         self.assertEqual(self.children(), [])
         self.assertEqual(len(self.left()), 1)
         process = self.blender("")  # the next start removes the folder
-        process.communicate(timeout=60)
+        process.communicate(timeout=300)
         self.assertEqual(self.left(), [])
 
 

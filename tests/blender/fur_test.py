@@ -255,6 +255,31 @@ class Coats(unittest.TestCase):
         ob.scale = (-1, 1, 1)
         self.assertAlmostEqual(render()["A"].mean() / plain, 1, delta=0.05)  # other strands, and a ball without hair has 0.6
 
+    def test_fur_is_blurred_like_its_skin(self):
+        ob = furry("LONG", 1000, 40)
+        scene = bpy.context.scene
+        scene.pelage.lod, scene.pelage.samples = False, 16
+        for frame, x in ((1, -1), (2, 1)):
+            ob.location.x, ob.rotation_euler.y = x, 0.2 * x
+            ob.keyframe_insert("location", frame=frame)
+            ob.keyframe_insert("rotation_euler", frame=frame)
+        for curve in ob.animation_data.action.fcurves:
+            curve.extrapolation = "LINEAR"
+            for key in curve.keyframe_points:
+                key.interpolation = "LINEAR"
+        moments = []
+        for step in range(5):
+            scene.frame_set(1, subframe=0.1 + 0.2 * step)
+            moments.append(render()["A"])
+        scene.frame_set(1)
+        scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1
+        scene.cycles.motion_blur_position = "START"
+        blurred = render()["A"]
+        # Five moments stand for the shutter: steps of 3 pixels at the borders, the sum of a column is smooth.
+        smooth = lambda rows: np.convolve(rows.mean(axis=0), np.ones(5) / 5, "same")
+        np.testing.assert_allclose(smooth(blurred), smooth(np.mean(moments, axis=0)), atol=0.02)
+        self.assertGreater(np.abs(blurred - moments[0]).mean(), 0.02)
+
     def test_a_saved_file_has_the_same_coat(self):
         furry("WET")
         before = render()

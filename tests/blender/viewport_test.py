@@ -16,7 +16,7 @@ import numpy as np
 from inside import light, pelage_blender
 from pelage_blender import viewport
 
-PATIENCE_S = 30
+PATIENCE_S = 150
 pelage_blender.register()
 
 
