@@ -14,7 +14,8 @@ STEPS = re.search(r"```python\n(.*?)```", (ROOT / "docs" / "BLENDER.md").read_te
 INSTALL = """
 import bpy
 bpy.ops.preferences.addon_install(filepath={zip!r})
-bpy.ops.preferences.addon_enable(module="pelage_blender")
+for step in (bpy.ops.preferences.addon_enable, bpy.ops.preferences.addon_disable, bpy.ops.preferences.addon_enable):
+    step(module="pelage_blender")
 assert bpy.context.preferences.addons["pelage_blender"].preferences.program == ""
 """
 

@@ -70,7 +70,6 @@ def steps():
     first = session()
     folder, process = first.folder, first.client.process
     assert os.path.isdir(folder)
-    print("pelage viewport test: size", first.client.picture.width, first.client.picture.height, flush=True)
     # The world of 0.5 is 188 of 255 in sRGB, and the ball reflects 0.8 of it.
     for place, linear, noise in (((0.05, 0.05), 0.5, 0.005), ((0.5, 0.5), 0.4, 0.08)):  # one sample
         expected = 1.055 * linear ** (1 / 2.4) - 0.055
