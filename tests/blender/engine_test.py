@@ -73,6 +73,33 @@ class Engine(unittest.TestCase):
         # Both draw the curve through the same points, Cycles in straight pieces; 16 samples of 600 pixels give 1 %.
         self.assertAlmostEqual(picture["A"].mean() / truth["A"].mean(), 1, delta=0.02)
 
+    def test_curves_without_a_radius_are_as_wide_as_in_cycles(self):
+        scene = empty_scene()
+        scene.render.film_transparent, scene.pelage.lod = True, False
+        set_world(1)
+        camera((0, -4, 0))
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.5)
+        hairy(bpy.context.object, 400, 1, display_step=2)
+        bpy.ops.curves.convert_from_particle_system()
+        bpy.data.objects.remove(bpy.data.objects["Sphere"])
+        ours, truth = render(samples=16), render("CYCLES", 16)
+        self.assertAlmostEqual(ours["A"].mean() / truth["A"].mean(), 1, delta=0.02)  # noise of 16 samples of 1000 pixels
+
+    def test_objects_can_be_rendered_in_every_mode(self):
+        empty_scene(16, 16)
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=4)
+        ob = bpy.context.object
+        ob.modifiers.new("smooth", "SUBSURF")
+        hairy(ob, 10)
+        bpy.ops.object.pelage_fur_add(preset="SHORT")
+        ob.pelage.coats[0].strands = 10
+        ob.vertex_groups.new(name="group")
+        camera()
+        set_world(1)
+        for mode in ("EDIT", "WEIGHT_PAINT", "SCULPT", "PARTICLE_EDIT", "OBJECT"):
+            bpy.ops.object.mode_set(mode=mode)
+            self.assertGreater(mean(render(samples=1)), 0.1, mode)
+
     def test_frames_differ_and_motion_is_blurred(self):
         scene = empty_scene()
         bpy.ops.mesh.primitive_cube_add(size=1)

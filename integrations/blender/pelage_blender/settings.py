@@ -10,6 +10,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 ENGINE = "PELAGE"
 WITHOUT_COUNTERPART = (
     "volumes, emitting surfaces, transparency of surfaces",
+    "metal, transmission, subsurface scattering, clear coat, sheen",
+    "coat and random variation of the Principled Hair BSDF",
     "normal, bump and displacement maps",
     "shader nodes other than colours, numbers and image textures",
     "panoramic cameras, pixels that are not square, clipping",

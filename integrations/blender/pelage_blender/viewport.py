@@ -8,6 +8,7 @@ import pathlib
 import shutil
 import tempfile
 import time
+import traceback
 import weakref
 from typing import Any
 
@@ -77,6 +78,10 @@ class ViewportSession:
             self.problem = ""
         except (ValueError, OSError, MemoryError) as error:
             self.problem = str(error)
+            return
+        except Exception as error:  # a mistake of ours: the viewport goes on
+            traceback.print_exc()
+            self.problem = f"the add-on has made a mistake: {error}"
             return
         if self.client is None:
             scene = depsgraph.scene
