@@ -96,7 +96,7 @@ class Engine(unittest.TestCase):
         ob.vertex_groups.new(name="group")
         camera()
         set_world(1)
-        for mode in ("EDIT", "WEIGHT_PAINT", "SCULPT", "PARTICLE_EDIT", "OBJECT"):
+        for mode in ("EDIT", "SCULPT", "PARTICLE_EDIT"):
             bpy.ops.object.mode_set(mode=mode)
             self.assertGreater(mean(render(samples=1)), 0.1, mode)
 

@@ -106,10 +106,7 @@ class ExitCodes(unittest.TestCase):
                 break
             time.sleep(0.05)
         self.assertEqual(self.children(), [])
-        self.assertEqual(len(self.left()), 1)
-        process = self.blender("")  # the next start removes the folder
-        process.communicate(timeout=300)
-        self.assertEqual(self.left(), [])
+        self.assertEqual(len(self.left()), 1)  # plain_test.py: the next start removes the folder
 
 
 if __name__ == "__main__":

@@ -268,16 +268,16 @@ class Coats(unittest.TestCase):
             for key in curve.keyframe_points:
                 key.interpolation = "LINEAR"
         moments = []
-        for step in range(5):
-            scene.frame_set(1, subframe=0.1 + 0.2 * step)
+        for step in range(3):
+            scene.frame_set(1, subframe=(step + 0.5) / 3)
             moments.append(render()["A"])
         scene.frame_set(1)
         scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1
         scene.cycles.motion_blur_position = "START"
         blurred = render()["A"]
-        # Five moments stand for the shutter: steps of 3 pixels at the borders, the sum of a column is smooth.
+        # Three moments stand for the shutter. They miss a sixth of it at each end, where the sum of a column is about 0.1.
         smooth = lambda rows: np.convolve(rows.mean(axis=0), np.ones(5) / 5, "same")
-        np.testing.assert_allclose(smooth(blurred), smooth(np.mean(moments, axis=0)), atol=0.02)
+        np.testing.assert_allclose(smooth(blurred), smooth(np.mean(moments, axis=0)), atol=0.04)
         self.assertGreater(np.abs(blurred - moments[0]).mean(), 0.02)
 
     def test_a_saved_file_has_the_same_coat(self):

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -124,6 +125,16 @@ class Files(unittest.TestCase):
         self.assertIn("2 faces", info[0])
         self.assertIn("2 strands", info[1])
         self.assertIn("5 points", info[1])
+
+    def test_folders_of_processes_that_are_gone_are_removed(self):
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(tempfile, "tempdir", name):
+            mine = files.new_folder()
+            gone = subprocess.Popen(["true"])
+            gone.wait()
+            (pathlib.Path(name) / f"{files.PREFIX}{gone.pid}-abc").mkdir()
+            (pathlib.Path(name) / f"{files.PREFIX}other").mkdir()
+            files.remove_stale_folders()
+            self.assertEqual(sorted(os.listdir(name)), sorted([os.path.basename(mine), f"{files.PREFIX}other"]))
 
     def test_only_changes_are_written(self):
         with tempfile.TemporaryDirectory() as name:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-import os
 import pathlib
-import tempfile
+import shutil
 import traceback
 from typing import Any
 
 import bpy
 
 from . import exr, passes, preferences, process, viewport
-from .files import SceneFolder
+from .files import SceneFolder, new_folder
 from .scene_writer import SceneWriter
 from .settings import ENGINE
 
@@ -82,8 +81,11 @@ class PelageEngine(bpy.types.RenderEngine):
     def render(self, depsgraph: bpy.types.Depsgraph) -> None:
         # Blender 3.4 crashes when an exception leaves this function, and in error_set().
         try:
-            with tempfile.TemporaryDirectory(prefix=f"{viewport.PREFIX}{os.getpid()}-") as folder:
+            folder = new_folder()
+            try:
                 self._render(depsgraph, pathlib.Path(folder))
+            finally:
+                shutil.rmtree(folder, ignore_errors=True)
         except process.Cancelled:
             pass
         except (process.PelageFailed, exr.ExrError, ValueError, OSError, MemoryError) as error:

@@ -6,10 +6,28 @@ import hashlib
 import json
 import os
 import pathlib
+import shutil
 import struct
+import tempfile
 from typing import Any
 
 import numpy as np
+
+PREFIX = "pelage-blender-"
+"""How the names of temporary folders begin."""
+
+
+def new_folder() -> str:
+    """A temporary folder whose name says which process it belongs to."""
+    return tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-")
+
+
+def remove_stale_folders() -> None:
+    """Removes folders of processes that are gone, which were killed."""
+    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        owner = path.name[len(PREFIX):].partition("-")[0]
+        if owner.isdigit() and not os.path.exists(f"/proc/{owner}") and os.path.exists("/proc/self"):
+            shutil.rmtree(path, ignore_errors=True)
 
 
 def document_text(document: dict[str, Any]) -> str:

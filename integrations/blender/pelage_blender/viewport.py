@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import atexit
-import os
 import pathlib
 import shutil
-import tempfile
 import time
 import traceback
 import weakref
@@ -19,27 +17,13 @@ from gpu_extras.presets import draw_texture_2d
 
 from . import preferences, process
 from .camera import optics, placement, projected
-from .files import SceneFolder, document_text
+from .files import SceneFolder, document_text, new_folder, remove_stale_folders
 from .scene_writer import SceneWriter
 from .view_client import ViewClient, ViewPicture
 
-PREFIX = "pelage-blender-"
 FAR = 1000.0
 """How far behind its view an orthographic viewport has its camera, in units: Blender shows what is behind it, too."""
 _sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
-
-
-def new_folder() -> str:
-    """A temporary folder whose name says which process it belongs to."""
-    return tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-")
-
-
-def remove_stale_folders() -> None:
-    """Removes folders of processes that are gone, which were killed."""
-    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-        owner = path.name[len(PREFIX):].partition("-")[0]
-        if owner.isdigit() and not os.path.exists(f"/proc/{owner}") and os.path.exists("/proc/self"):
-            shutil.rmtree(path, ignore_errors=True)
 
 
 def view_camera(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, notes: set[str]) -> dict[str, Any]:
