@@ -26,7 +26,7 @@ def with_window(path, environment):
 
 def main():
     name, arguments = sys.argv[1], sys.argv[2:]
-    needed = [] if name == "plain" else ["blender", "xvfb-run"] if name == "viewport" else ["blender"]
+    needed = [] if name == "plain" else ["blender", "xvfb-run", "xauth"] if name == "viewport" else ["blender"]
     if importlib.util.find_spec("numpy") is None or any(shutil.which(program) is None for program in needed):
         return SKIPPED
     path, environment = str(HERE / f"{name}_test.py"), {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
