@@ -105,6 +105,7 @@ def steps():
         bpy.ops.ed.redo()
         assert len(bpy.data.objects["Sphere"].pelage.coats) == 1
     yield finished
+    assert session() is first  # the program is still the same
 
     space.shading.type = "SOLID"
     yield lambda: session() is None

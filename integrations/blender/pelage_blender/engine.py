@@ -49,12 +49,12 @@ class PelageEngine(bpy.types.RenderEngine):
 
     def __del__(self) -> None:
         if self.session is not None:
-            self.session.close()
+            viewport.release(self.session)
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         try:
             if self.session is None:
-                self.session = viewport.ViewportSession(depsgraph)
+                self.session = viewport.acquire()
                 viewport.follow(self)
             self.session.write(context, depsgraph)
         except process.PelageFailed as error:

@@ -23,7 +23,10 @@ from .view_client import ViewClient, ViewPicture
 
 FAR = 1000.0
 """How far behind its view an orthographic viewport has its camera, in units: Blender shows what is behind it, too."""
+KEPT_S = 2.0
+"""Blender frees a viewport's engine at each undo and makes another: its session is kept this long for the next one."""
 _sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
+_spare: list[tuple[float, ViewportSession]] = []
 
 
 def view_camera(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, notes: set[str]) -> dict[str, Any]:
@@ -42,7 +45,7 @@ def view_camera(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, note
 class ViewportSession:
     """The process, the folder and the picture of one viewport."""
 
-    def __init__(self, depsgraph: bpy.types.Depsgraph) -> None:
+    def __init__(self) -> None:
         self.program = preferences.program()
         self.folder = new_folder()
         self.writer = SceneWriter(SceneFolder(pathlib.Path(self.folder)))
@@ -126,6 +129,32 @@ class ViewportSession:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+def acquire() -> ViewportSession:
+    """A session for a new engine: one that has just been released, or a new one. Raises PelageFailed."""
+    while _spare:
+        _, session = _spare.pop()
+        if session.program == preferences.program():
+            return session
+        session.close()
+    return ViewportSession()
+
+
+def release(session: ViewportSession) -> None:
+    """Ends a session soon, unless another engine acquires it."""
+    if KEPT_S == 0:
+        session.close()
+        return
+    _spare.append((time.monotonic(), session))
+
+    def tick() -> float | None:
+        for entry in [entry for entry in _spare if time.monotonic() - entry[0] >= KEPT_S]:
+            _spare.remove(entry)
+            entry[1].close()
+        return 0.5 if _spare else None
+
+    bpy.app.timers.register(tick, first_interval=KEPT_S, persistent=True)
+
+
 def _texture(picture: ViewPicture, transparent: bool) -> gpu.types.GPUTexture:
     rows, columns = picture.rgba.shape[:2]
     rgba = picture.rgba.copy()
@@ -155,18 +184,25 @@ def follow(engine: Any) -> None:
 
 
 def close_all() -> None:
-    for session in list(_sessions):
+    for session in [*(session for _, session in _spare), *_sessions]:
         session.close()
+    _spare.clear()
+
+
+def _at_exit() -> None:
+    global KEPT_S
+    KEPT_S = 0.0  # nobody will acquire what Blender frees from now on
+    close_all()
 
 
 def register() -> None:
     remove_stale_folders()
-    atexit.register(close_all)
+    atexit.register(_at_exit)
 
 
 def unregister() -> None:
     close_all()
-    atexit.unregister(close_all)
+    atexit.unregister(_at_exit)
 
 
 CLASSES = ()
