@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Blender as a farm runs it: exit codes, files, and what is left when a render is stopped or a process dies."""
+"""Blender as a farm runs it: exit codes, files, and what is left when a render is stopped or Blender dies.
+
+package_test.py has a complete picture, and engine_test.py a program that crashes.
+"""
 import os
 import pathlib
 import signal
@@ -61,13 +64,6 @@ class ExitCodes(unittest.TestCase):
             time.sleep(0.05)
         self.fail("no render has started")
 
-    def test_a_picture_is_0(self):
-        process = self.blender("", "-o", f"{self.path}/ü '#.png", "-F", "PNG", "-f", "1")
-        text = process.communicate(timeout=300)[0]
-        self.assertEqual(process.returncode, 0, text)
-        self.assertTrue((self.path / "ü '1.png").exists(), text)
-        self.assertEqual(self.left(), [])
-
     def test_an_error_is_1_and_no_picture(self):
         process = self.blender("scene.pelage.memory = 64\nscene.render.resolution_x = scene.render.resolution_y = 4000\n",
                                "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")
@@ -87,14 +83,6 @@ class ExitCodes(unittest.TestCase):
         self.assertEqual(process.returncode, 1, text)
         self.assertEqual(list(self.path.glob("*.png")), [])
         self.assertEqual((self.left(), self.children()), ([], []))
-
-    def test_a_killed_program_is_an_error_of_blender(self):
-        process = self.blender("scene.pelage.samples = 100000\n", "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")
-        os.kill(self.wait_for_child(process), signal.SIGKILL)
-        text = process.communicate(timeout=300)[0]
-        self.assertEqual(process.returncode, 1, text)
-        self.assertIn("signal 9", text)
-        self.assertEqual(self.left(), [])
 
     def test_the_program_ends_with_a_blender_that_is_killed(self):
         process = self.blender("scene.pelage.samples = 100000\n", "-o", f"{self.path}/a#.png", "-F", "PNG", "-f", "1")

@@ -33,6 +33,7 @@ class Package(unittest.TestCase):
             small = ("scene.render.resolution_x, scene.render.resolution_y = 32, 18\n"
                      "scene.pelage.samples, scene.pelage.bounces, coat.strands = 1, 0, 5000\n")
             steps = STEPS.replace("bpy.ops.render.render", small + "bpy.ops.render.render")
+            steps = steps.replace("out/blender.png", "out/Ratte ü '#.png")
             self.assertIn(small, steps)
             (folder / "steps.py").write_text(INSTALL.format(zip=str(zipped[0])) + steps)
             environment = {**os.environ, "BLENDER_USER_SCRIPTS": str(folder / "scripts"), "TMPDIR": name,
@@ -44,7 +45,7 @@ class Package(unittest.TestCase):
                                     text=True)
             self.assertEqual(result.returncode, 0, result.stdout)
             self.assertNotIn("Error", result.stdout)
-            self.assertTrue((folder / "out" / "blender.png").exists(), result.stdout)
+            self.assertTrue((folder / "out" / "Ratte ü '#.png").exists(), result.stdout)
             self.assertTrue((folder / "scripts" / "addons" / "pelage_blender" / "engine.py").exists(), result.stdout)
             self.assertEqual([p for p in os.listdir(folder) if p.startswith("pelage-blender-")], [])
 
