@@ -8,7 +8,7 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import (ROOT, camera, empty_scene, grey_plane, hairy, left_folders, light, material, mean, new_path, render, run,
+from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path, render, run,
                     set_world)
 from pelage_blender import hair_particles
 
@@ -201,6 +201,27 @@ class Engine(unittest.TestCase):
         for channel, value in zip("RGB", (0.6, 0.3, 0.1)):
             self.assertAlmostEqual(picture[channel].mean(), value, delta=0.004)
         del scene
+
+    def test_tiles_of_an_image(self):
+        empty_scene(16, 16)
+        plane = grey_plane(8)
+        for number, color in ((1001, "R"), (1002, "G")):
+            tile = {name: np.full((4, 4), 0.5 * (name == color), np.float32) for name in "RGB"}
+            (OUTPUT / f"tile.{number}.exr").write_bytes(exr.encode(tile))
+        for corner in plane.data.uv_layers[0].data:
+            corner.uv = (2 * corner.uv[0], corner.uv[1])
+        image = bpy.data.images.load(str(OUTPUT / "tile.1001.exr"))
+        image.source, image.filepath = "TILED", str(OUTPUT / "tile.<UDIM>.exr")
+        tree = plane.data.materials[0].node_tree
+        node = tree.nodes.new("ShaderNodeTexImage")
+        node.image = image
+        tree.links.new(node.outputs["Color"], tree.nodes["Diffuse BSDF"].inputs["Color"])
+        camera((0, 0, 3))
+        set_world(1)
+        picture = render(samples=4)
+        for channel, place in (("R", 4), ("G", 12)):
+            self.assertAlmostEqual(float(picture[channel][8, place]), 0.5, delta=0.05)  # four samples
+        self.assertEqual(picture["G"][8, 4], 0)
 
     def test_a_mesh_with_two_materials_and_hair(self):
         empty_scene(32, 32)

@@ -119,7 +119,8 @@ def _field(writer: SceneWriter, ob: bpy.types.Object, map_: PelageMap) -> dict[s
     if map_.image is None:
         return None
     path, _ = image_file(map_.image, writer.folder)
-    return coat_values.scaled_map({"map": str(path), "channel": "r", "wrap": "repeat"}, map_.low, map_.high)
+    wrap = {} if map_.image.source == "TILED" else {"wrap": "repeat"}
+    return coat_values.scaled_map({"map": str(path), "channel": "r"} | wrap, map_.low, map_.high)
 
 
 def _operator(writer: SceneWriter, ob: bpy.types.Object, operator: PelageOperator) -> dict[str, Any]:

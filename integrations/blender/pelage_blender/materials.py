@@ -74,7 +74,7 @@ class MaterialConverter:
         if node.projection != "FLAT":
             self.notes.add("projections of image textures: images lie as the UV map says")
         wrap = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "black"}.get(node.extension, "repeat")
-        return {"map": str(path), "space": space, "wrap": "clamp" if node.image.source == "TILED" else wrap}
+        return {"map": str(path), "space": space} | ({} if node.image.source == "TILED" else {"wrap": wrap})
 
     def _principled(self, node: bpy.types.Node) -> Block:
         inputs = node.inputs
