@@ -16,7 +16,7 @@ WITHOUT_COUNTERPART = (
     "shader nodes other than colours, numbers and image textures",
     "panoramic cameras, pixels that are not square, clipping",
     "spread of area lights, ray visibility, light linking, holdouts",
-    "rolling shutter; motion of strands other than that of their emitter",
+    "rolling shutter and shutter curves; motion of strands other than that of their emitter",
     "Freestyle, denoising, Cryptomatte",
 )
 """What Blender has and Pelage has not; shown in the panel."""
