@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpers of the tests that run inside Blender: the add-on, small scenes, pictures as arrays."""
+import atexit
 import math
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 import unittest
@@ -17,6 +19,7 @@ import pelage_blender  # noqa: E402
 from pelage_blender import exr  # noqa: E402
 
 OUTPUT = pathlib.Path(tempfile.mkdtemp(prefix="pelage-test-"))
+atexit.register(shutil.rmtree, OUTPUT, ignore_errors=True)
 shots = 0
 
 
@@ -26,8 +29,6 @@ def run():
     import __main__
     suite = unittest.defaultTestLoader.loadTestsFromModule(__main__)
     result = unittest.TextTestRunner(verbosity=2).run(suite)
-    import shutil
-    shutil.rmtree(OUTPUT)
     sys.stdout.flush()
     sys.exit(0 if result.wasSuccessful() else 1)
 
