@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The render engine: final pictures by `pelage render` in a process of its own."""
+from __future__ import annotations
+
+import math
+import pathlib
+import shutil
+import traceback
+from typing import Any
+
+import bpy
+
+from . import exr, passes, preferences, process, viewport
+from .files import SceneFolder, new_folder
+from .scene_writer import SceneWriter
+from .settings import ENGINE
+
+SHARE = {"read": (0.0, 0.05), "pose": (0.05, 0.05), "grow": (0.05, 0.15), "bounds": (0.05, 0.15),
+         "reflection cache": (0.15, 0.2), "render": (0.2, 0.98), "write": (0.98, 1.0)}
+"""Where stages of a render begin and end on the progress bar."""
+
+Region = tuple[int, int, int, int]
+
+
+def picture_size(scene: bpy.types.Scene) -> tuple[int, int]:
+    factor = scene.render.resolution_percentage / 100
+    return max(1, int(scene.render.resolution_x * factor)), max(1, int(scene.render.resolution_y * factor))
+
+
+def border(scene: bpy.types.Scene, size: tuple[int, int]) -> Region | None:
+    """The render region in pixels from the upper left corner: x0, y0, x1, y1; None: the whole picture."""
+    render = scene.render
+    if not render.use_border:
+        return None
+    x0, x1 = int(render.border_min_x * size[0]), int(render.border_max_x * size[0])
+    y0, y1 = int(render.border_min_y * size[1]), int(render.border_max_y * size[1])
+    return x0, size[1] - y1, x1, size[1] - y0
+
+
+class PelageEngine(bpy.types.RenderEngine):
+    bl_idname = ENGINE
+    bl_label = "Pelage"
+    bl_use_preview = False
+    bl_use_shading_nodes_custom = False
+    bl_use_postprocess = True
+    bl_use_eevee_viewport = True
+    stage = ""
+    session: viewport.ViewportSession | None = None
+
+    def __del__(self) -> None:
+        if self.session is not None:
+            viewport.release(self.session)
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        try:
+            if self.session is None:
+                self.session = viewport.acquire()
+                viewport.follow(self)
+            self.session.write(context, depsgraph)
+        except process.PelageFailed as error:
+            self.update_stats("Pelage", str(error))
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        if self.session is None:
+            return
+        self.session.follow_view(context, depsgraph)
+        self.bind_display_space_shader(depsgraph.scene)
+        self.session.draw(context)
+        self.unbind_display_space_shader()
+        self.update_stats("Pelage", self.session.status())
+
+    def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
+        self.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
+        if layer.use_pass_z:
+            self.register_pass(scene, layer, "Depth", 1, "Z", "VALUE")
+        if layer.use_pass_normal:
+            self.register_pass(scene, layer, "Normal", 3, "XYZ", "VECTOR")
+        for name, count, letters, kind in passes.wanted_passes(scene, layer):
+            self.register_pass(scene, layer, name, count, letters, kind)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        # Blender 3.4 crashes when an exception leaves this function, and in error_set().
+        try:
+            folder = new_folder()
+            try:
+                self._render(depsgraph, pathlib.Path(folder))
+            finally:
+                shutil.rmtree(folder, ignore_errors=True)
+        except process.Cancelled:
+            pass
+        except (process.PelageFailed, exr.ExrError, ValueError, OSError, MemoryError) as error:
+            self.report({"ERROR"}, f"Pelage: {error}")
+        except Exception:  # a mistake of ours: the user sees where
+            self.report({"ERROR"}, f"Pelage: the add-on has made a mistake:\n{traceback.format_exc()}")
+
+    def _render(self, depsgraph: bpy.types.Depsgraph, folder: pathlib.Path) -> None:
+        scene = depsgraph.scene
+        program = preferences.program()
+        size = picture_size(scene)
+        region = border(scene, size)
+        self.update_stats("Pelage", "Reading the scene")
+        writer = SceneWriter(SceneFolder(folder))
+        writer.write(depsgraph, size, self.frame_set)
+        if writer.notes:
+            self.report({"INFO"}, "Pelage: without counterpart: " + "; ".join(sorted(writer.notes)))
+        output = folder / "picture.exr"
+        command = [program, "render", str(folder / "scene.yaml"), "-o", str(output), "--progress", "json"]
+        if scene.render.threads_mode == "FIXED":
+            command += ["--threads", str(scene.render.threads)]
+        if region is not None:
+            command += ["--region", ",".join(map(str, region))]
+        result = process.run_render(command, folder / "scene.yaml", self.test_break, self._progress)
+        for warning in result.warnings:
+            self.report({"WARNING"}, f"Pelage: {warning}")
+        self._show(depsgraph, output, size if region is None else (region[2] - region[0], region[3] - region[1]))
+
+    def _progress(self, stage: str, fraction: float) -> None:
+        begin, end = SHARE.get(stage, (0.0, 0.05))
+        if math.isfinite(fraction):
+            self.update_progress(begin + (end - begin) * min(max(fraction, 0.0), 1.0))
+        if stage and stage != self.stage:
+            self.stage = stage
+            self.update_stats("Pelage", stage.capitalize())
+
+    def _show(self, depsgraph: bpy.types.Depsgraph, path: pathlib.Path, size: tuple[int, int]) -> None:
+        scene, view_layer = depsgraph.scene, depsgraph.view_layer
+        wanted = list(passes.wanted_passes(scene, view_layer))
+        picture = passes.Picture(path, every=bool(wanted))
+        if picture.size != size:
+            raise exr.ExrError(f"the picture has {picture.size} pixels instead of {size}")
+        for name, count, letters, _ in wanted:
+            self.add_pass(name, count, letters, layer=view_layer.name)
+        result = self.begin_result(0, 0, *size, layer=view_layer.name)
+        if not result.layers:
+            return
+        try:
+            passes.fill(result.layers[0].passes, picture, scene.render.film_transparent, lambda line: None)
+        finally:
+            self.end_result(result, cancel=self.test_break())
+
+
+CLASSES = (PelageEngine,)
+
+
+def compatible_panels() -> list[Any]:
+    """Panels of Blender that make sense with this engine."""
+    unwanted = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_eevee_sampling", "DATA_PT_light",
+                "RENDER_PT_freestyle"}
+    return [panel for panel in bpy.types.Panel.__subclasses__()
+            if "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in unwanted]
+
+
+def register() -> None:
+    for panel in compatible_panels():
+        panel.COMPAT_ENGINES.add(ENGINE)
+    _cycles_panels(True)
+
+
+def unregister() -> None:
+    for panel in compatible_panels():
+        panel.COMPAT_ENGINES.discard(ENGINE)
+    _cycles_panels(False)
+
+
+def _cycles_panels(add: bool) -> None:
+    """Panels of Eevee for materials, lights and the world, which edit the nodes that Pelage reads."""
+    for name in ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface",
+                 "DATA_PT_EEVEE_light", "NODE_DATA_PT_EEVEE_light", "DATA_PT_spot"):
+        panel = getattr(bpy.types, name, None)
+        if panel is not None and hasattr(panel, "COMPAT_ENGINES"):
+            (panel.COMPAT_ENGINES.add if add else panel.COMPAT_ENGINES.discard)(ENGINE)

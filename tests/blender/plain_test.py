@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parts of the add-on that know nothing of Blender."""
+import importlib
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+from unittest import mock
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ADDON = ROOT / "integrations" / "blender" / "pelage_blender"
+# The package itself imports bpy, so its modules are loaded into an empty one.
+package = types.ModuleType("addon")
+package.__path__ = [str(ADDON)]
+sys.modules["addon"] = package
+axes, exr, files, hair_color, process = (importlib.import_module(f"addon.{name}")
+                                         for name in ("axes", "exr", "files", "hair_color", "process"))
+PROGRAM = os.environ.get("PELAGE_PROGRAM", "pelage")
+
+
+class Axes(unittest.TestCase):
+    def test_up_is_up_and_the_turn_is_a_rotation(self):
+        np.testing.assert_array_equal(axes.to_pelage([0, 0, 1]), [0, 1, 0])
+        np.testing.assert_array_equal(axes.to_pelage([[1, 2, 3]]), [[1, 3, -2]])
+        self.assertAlmostEqual(np.linalg.det(axes.to_pelage(np.eye(3))), 1)
+
+    def test_softness_fades_between_the_same_cosines(self):
+        for cone in (0.3, 1.0, 2.5):
+            for blend in (0, 0.15, 0.5, 1):
+                inner = math.cos(0.5 * cone * (1 - axes.spot_softness(cone, blend)))
+                outer = math.cos(0.5 * cone)
+                self.assertAlmostEqual(inner, outer + (1 - outer) * blend, places=6)
+
+    def test_the_image_of_a_spot_is_a_cosine(self):
+        image = axes.spot_image(90, 65)
+        self.assertAlmostEqual(image[32, 32], 1)
+        middle_of_border = 1 / math.sqrt(1 + (64 / 65) ** 2)
+        self.assertAlmostEqual(image[32, 0], middle_of_border, places=6)
+
+    def test_index_of_refraction(self):
+        self.assertAlmostEqual(axes.index_of_refraction(0.5), 1.5, places=6)
+        self.assertEqual(axes.index_of_refraction(100), 3)
+
+
+class HairColor(unittest.TestCase):
+    def test_color_and_back(self):
+        fit = 5.969 - 0.215 * 0.3 + 2.532 * 0.09 - 10.73 * 0.027 + 5.574 * 0.0081 + 0.245 * 0.00243
+        for color in (0.02, 0.5, 0.9):
+            sigma = hair_color.from_color([color] * 3, 0.3)[0]
+            self.assertAlmostEqual(math.exp(-fit * math.sqrt(sigma)), color, places=6)
+
+    def test_melanin(self):
+        np.testing.assert_allclose(hair_color.from_melanin(0, 0, (1, 1, 1), 0.3), 0, atol=1e-9)
+        brown = hair_color.from_melanin(1 - math.exp(-1), 0, (1, 1, 1), 0.3)
+        np.testing.assert_allclose(brown, (0.506, 0.841, 1.653), rtol=1e-6)
+        self.assertLess(hair_color.from_melanin(0.5, 1, (1, 1, 1), 0.3)[0], hair_color.from_melanin(0.5, 0, (1, 1, 1), 0.3)[0])
+
+
+class Exr(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def test_what_is_encoded_is_read(self):
+        rng = np.random.default_rng(1)
+        channels = {"a layer with a long name, longer than 31.ä": rng.normal(size=(5, 7)).astype(np.float32),
+                    "R": rng.normal(size=(5, 7)).astype(np.float32)}
+        (self.path / "a.exr").write_bytes(exr.encode(channels))
+        header, found = exr.read(self.path / "a.exr")
+        self.assertEqual((header.width, header.height), (7, 5))
+        for name, values in channels.items():
+            np.testing.assert_array_equal(found[name], values)
+
+    def test_a_picture_of_pelage_is_read(self):
+        scene = self.path / "a.yaml"
+        scene.write_text("pelage: 1\nimage: {width: 21, height: 35}\nrender: {samples: 1}\ncharacters: {}\n"
+                         "lights: {sky: {type: environment, radiance: [0.25, 0.5, 4]}}\n")
+        subprocess.run([PROGRAM, "render", scene, "-o", self.path / "a.exr", "--quiet"], check=True)
+        header, found = exr.read(self.path / "a.exr")
+        self.assertEqual((header.width, header.height, header.compression), (21, 35, 3))
+        for name, value in (("R", 0.25), ("G", 0.5), ("B", 4), ("sky.emission.B", 4)):
+            np.testing.assert_array_equal(found[name], np.full((35, 21), value, np.float32))
+
+    def test_damage_is_an_error(self):
+        data = exr.encode({"R": np.zeros((4, 4), np.float32)})
+        path = self.path / "a.exr"
+        for cut in range(0, len(data), 7):
+            path.write_bytes(data[:cut])
+            with self.assertRaises(exr.ExrError):
+                exr.read(path)
+
+
+class Files(unittest.TestCase):
+    def test_a_line_leads_to_its_keys(self):
+        text = files.document_text({"a": 1, "grooms": {"coat \"ä\": {": {"operators": [{"length": {"value": 2}},
+                                                                               {"clump": {"amount": [3, 4.5]}}]}}, "z": []})
+        paths = {text.splitlines()[i].strip(): files.path_of_line(text, i + 1) for i in range(len(text.splitlines()))}
+        self.assertEqual(paths['"value": 2'], 'grooms.coat "ä": {.operators.0.length.value')
+        self.assertEqual(paths["4.5"], 'grooms.coat "ä": {.operators.1.clump.amount.1')
+        self.assertEqual(paths['"z": []'], "z")
+
+    def test_names_are_different_and_without_dots(self):
+        taken = set()
+        self.assertEqual([files.pelage_name(n, taken) for n in ("a.1", "a_1", "a.1", " ")], ["a_1", "a_1 2", "a_1 3", "unnamed"])
+
+    def test_meshes_and_strands_are_those_of_pelage(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = files.SceneFolder(pathlib.Path(name))
+            points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0.5]])
+            text = files.obj_text(points, np.array([4, 3]), np.array([0, 1, 2, 3, 1, 4, 2]), np.zeros((7, 2)),
+                                  [("slot0", np.array([0])), ("slot1", np.array([1]))], np.full((5, 3), 0.5))
+            folder.put("a.obj", text)
+            strands = files.hair_bytes(np.arange(15).reshape(5, 3), np.full(5, 0.1), np.array([2, 3]))
+            folder.put("a.hair", strands)
+            info = [subprocess.run([PROGRAM, "info", f"{name}/{file}"], capture_output=True, text=True, check=True).stdout
+                    for file in ("a.obj", "a.hair")]
+        self.assertIn("5 vertices", info[0])
+        self.assertIn("2 faces", info[0])
+        self.assertIn("2 strands", info[1])
+        self.assertIn("5 points", info[1])
+
+    def test_folders_of_processes_that_are_gone_are_removed(self):
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(tempfile, "tempdir", name):
+            mine = files.new_folder()
+            gone = subprocess.Popen(["true"])
+            gone.wait()
+            (pathlib.Path(name) / f"{files.PREFIX}{gone.pid}-abc").mkdir()
+            (pathlib.Path(name) / f"{files.PREFIX}other").mkdir()
+            files.remove_stale_folders()
+            self.assertEqual(sorted(os.listdir(name)), sorted([os.path.basename(mine), f"{files.PREFIX}other"]))
+
+    def test_only_changes_are_written(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = files.SceneFolder(pathlib.Path(name))
+            folder.put("a", "text")
+            first = os.stat(f"{name}/a").st_ino
+            folder.put("a", "text")
+            self.assertEqual(os.stat(f"{name}/a").st_ino, first)
+            folder.put("a", "other")
+            self.assertEqual(pathlib.Path(name, "a").read_text(), "other")
+
+
+class Process(unittest.TestCase):
+    def test_a_mistake_is_told_by_keys(self):
+        with tempfile.TemporaryDirectory() as name:
+            scene = pathlib.Path(name) / "scene.yaml"
+            scene.write_text(files.document_text({"pelage": 1, "lights": {"key": {"type": "point", "powr": 1}}}))
+            with self.assertRaises(process.PelageFailed) as caught:
+                process.run_render([PROGRAM, "render", str(scene), "-o", f"{name}/a.exr", "--progress", "json"], scene,
+                                   lambda: False, lambda stage, fraction: None)
+        self.assertIn("lights.key.powr: unknown key 'powr' in point; did you mean 'power'?", str(caught.exception))
+
+    def test_cancelling_ends_the_process(self):
+        with tempfile.TemporaryDirectory() as name, self.assertRaises(process.Cancelled):
+            process.run_render(["sleep", "1000"], pathlib.Path(name) / "a", lambda: True, lambda stage, fraction: None)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
