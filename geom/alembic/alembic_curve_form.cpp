@@ -47,6 +47,12 @@ int64_t common_order(const AlembicNode& node) {
 
 }  // namespace
 
+uint32_t AlembicCurveForm::varying(uint32_t n) const {
+  UsdCurveForm in_file = form;
+  if (phantom_ends) in_file.wrap = Wrap::kNonperiodic;
+  return in_file.varying(n);
+}
+
 std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings) {
   const AlembicProperty* stated = node.geometry.find("curveBasisAndType");
   std::vector<int64_t> bytes;

@@ -13,6 +13,9 @@ struct AlembicCurveForm {
   UsdCurveForm form;
   /// Whether the first and last vertex of each curve are phantoms, which are not points of ours.
   bool phantom_ends = false;
+
+  /// Returns how many varying values a curve of `n` vertices has in the file, phantoms among them.
+  uint32_t varying(uint32_t n) const;
 };
 
 /// Returns the form of the curves of an object. A B-spline whose knots begin with three equal ones passes

@@ -49,7 +49,7 @@ class AlembicCurvesReader {
     if (!form) return;
     batch.form = form->form;
     batch.to_world = node.to_world;
-    if (!add_vertices(node, batch)) return;
+    if (!add_vertices(node, *form, batch)) return;
     add_widths(node, batch);
     const bool guide = add_params(node, batch);
     if (form->phantom_ends) drop_phantoms(batch);
@@ -83,7 +83,7 @@ class AlembicCurvesReader {
                             memory_text(options_.max_bytes)));
   }
 
-  bool add_vertices(const AlembicNode& node, UsdCurveBatch& batch) {
+  bool add_vertices(const AlembicNode& node, const AlembicCurveForm& form, UsdCurveBatch& batch) {
     const AlembicProperty *counts = node.geometry.find("nVertices"), *points = node.geometry.find("P");
     if (!counts || !points || counts->stored == 0 || points->stored == 0) {
       warnings_.add("curves without points are skipped", place_);
@@ -113,7 +113,7 @@ class AlembicCurvesReader {
       node.fail(fmt::format("nVertices add up to {}, but there are {} points", sum, vertices));
     batch.points = alembic_floats(node.archive, *points);
     sizes_ = UsdPrimvarCounts{batch.counts.size(), 0, vertices, 0};
-    for (const uint32_t n : batch.counts) sizes_.varying += batch.form.varying(n);
+    for (const uint32_t n : batch.counts) sizes_.varying += form.varying(n);
     sizes_.face_varying = sizes_.varying;  // the same for curves
     return !batch.counts.empty();
   }

@@ -90,9 +90,10 @@ std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicPr
   const std::string_view scope = alembic_metadata(property.metadata, "geoScope");
   param.interpolation = interpolation_of_scope(scope);
   if (param_count(param.interpolation, counts) == count) return param;
-  // Alembic counts a varying value per vertex of cubic curves, too.
-  const bool stated = !scope.empty() && !(param.interpolation == "varying" && count == counts.vertex);
-  if (stated) {
+  // AbcGeom counts the values of these scopes per vertex, also those of cubic curves that are not periodic.
+  const bool per_vertex = count == counts.vertex && counts.varying == counts.face_varying &&
+                          (param.interpolation == "varying" || param.interpolation == "faceVarying");
+  if (!scope.empty() && !per_vertex) {
     warnings.add(fmt::format("'{}' has a size that does not fit its scope, {}", visible(property.name),
                              param.interpolation),
                  place);

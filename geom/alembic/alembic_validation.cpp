@@ -29,7 +29,7 @@ class AlembicCurvesValidator {
     const AlembicProperty *counts = node_.geometry.find("nVertices"), *points = node_.geometry.find("P");
     if (!counts || !points || counts->stored == 0 || points->stored == 0)
       return problem("it has no nVertices or no P");
-    check_counts(*counts, form->form);
+    check_counts(*counts, *form);
     check_points(*points);
     check_widths();
     check_bounds();
@@ -48,13 +48,13 @@ class AlembicCurvesValidator {
   void problem(const std::string& text) { findings_.problems.push_back(line(text)); }
   void remark(const std::string& text) { findings_.remarks.push_back(line(text)); }
 
-  void check_counts(const AlembicProperty& counts, const UsdCurveForm& form) {
+  void check_counts(const AlembicProperty& counts, const AlembicCurveForm& form) {
     size_t few = 0, one = 0;
     const std::vector<int64_t> first = alembic_integers(node_.archive, counts);
     for (const int64_t n : first) {
       const auto count = static_cast<uint32_t>(std::clamp<int64_t>(n, 0, UINT32_MAX));
       one += count == 1;
-      few += form.segments(count) == 0;
+      few += form.form.segments(count) == 0;
       sizes_.vertex += count;
       sizes_.varying += form.varying(count);
       ++sizes_.uniform;

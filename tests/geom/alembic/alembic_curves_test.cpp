@@ -87,6 +87,32 @@ TEST(AlembicCurves, RoundTripKeepsEverything) {
   }
 }
 
+TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
+  // Three curves of three points each, with phantoms; the width of vertex i of a curve is its x.
+  for (const int basis : {2, 3}) {
+    for (const std::string scope : {"vtx", "var", "fvr"}) {
+      OgawaBytes b;
+      const std::vector<float> x{0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4};
+      const std::vector<Part> geometry{
+          b.array("width", kFloat, 1, {raw(x)}, "geoScope=" + scope),
+          b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
+      const UsdCurvesFile file = read_curves({5, 5, 5}, curve_form(0, 0, basis), geometry, {}, b);
+      EXPECT_EQ(file.warnings, std::vector<std::string>());
+      ASSERT_EQ(file.strands.points.size(), 4u * 9);
+      for (size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(file.strands.points[4 * i + 3], 0.5f * file.strands.points[4 * i]) << scope;
+    }
+  }
+  // One value per point, as programs count that know two varying values per segment of a B-spline.
+  OgawaBytes b;
+  const std::vector<Part> geometry{
+      b.array("width", kFloat, 1, {raw<float>({2, 4, 6, 2, 4, 6})}, "geoScope=var"),
+      b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
+  const UsdCurvesFile file = read_curves({5, 5}, curve_form(0, 0, 2), geometry, {}, b);
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(file.strands.points[4 * i + 3], file.strands.points[4 * i]);
+}
+
 TEST(AlembicCurves, StrandsThatMoveAreWrittenAtTheirFirstKey) {
   const TemporaryFolder folder;
   RandomStrandOptions options;
