@@ -14,6 +14,7 @@ namespace {
 constexpr uint64_t kLayoutChild = 0, kTopChild = 2, kMetadataChild = 3, kIndexedChild = 5;
 constexpr size_t kSampleKey = 16, kHeaderHashes = 32;
 constexpr uint32_t kInlineMetadata = 255;
+constexpr size_t kMaxNameBytes = size_t(1) << 16;
 
 /// Reads headers from a block of data.
 class AlembicHeaderReader {
@@ -31,6 +32,15 @@ class AlembicHeaderReader {
   std::string_view text(size_t size) {
     const std::span<const std::byte> taken = take(size);
     return {reinterpret_cast<const char*>(taken.data()), size};
+  }
+  /// The name of an object or a property.
+  std::string_view name(size_t size) {
+    if (size == 0) fail("a name is empty");
+    if (size > kMaxNameBytes) fail(fmt::format("a name has {} bytes; {} are allowed", size, kMaxNameBytes));
+    const std::string_view taken = text(size);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (std::any_of(taken.begin(), taken.end(), is_control)) fail("a name has a control character");
+    return taken;
   }
   [[noreturn]] void fail(const std::string& why) const {
     file_.fail(fmt::format("{}: {}", what_, why), bytes_);
@@ -122,8 +132,7 @@ std::vector<AlembicObject> AlembicArchive::children(const AlembicObject& object)
   AlembicHeaderReader in(file_, bytes.first(bytes.size() - kHeaderHashes), "headers of objects");
   while (!in.at_end()) {
     AlembicObject child;
-    child.name = in.text(in.number(4));
-    if (child.name.empty()) in.fail("an object has no name");
+    child.name = in.name(in.number(4));
     const uint32_t index = in.number(1);
     if (index == kInlineMetadata) {
       child.metadata = in.text(in.number(4));
@@ -165,8 +174,7 @@ AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
       property.stored = stored_samples(info, in);
       if (info.has_time()) in.number(bytes);
     }
-    property.name = in.text(in.number(bytes));
-    if (property.name.empty()) in.fail("a property has no name");
+    property.name = in.name(in.number(bytes));
     if (info.metadata() == kInlineMetadata) {
       property.metadata = in.text(in.number(bytes));
     } else if (info.metadata() < metadata_.size()) {

@@ -58,7 +58,7 @@ class AlembicCompound {
 std::string_view alembic_metadata(std::string_view metadata, std::string_view key);
 
 /// The objects and properties of an Alembic file. Members throw Error (kInput) with the position in bytes
-/// where the file is malformed. Thread safety: const members may be called from any thread.
+/// where the file is malformed, or has names of more than 64 KiB or with control characters. Thread safety: const members may be called from any thread.
 class AlembicArchive {
  public:
   explicit AlembicArchive(const std::filesystem::path& path);

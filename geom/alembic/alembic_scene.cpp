@@ -12,6 +12,7 @@ namespace pelage {
 namespace {
 
 constexpr int kMaxObjectDepth = 512;
+constexpr size_t kMaxPathBytes = size_t(1) << 16;
 constexpr std::string_view kTransformSchema = "AbcGeom_Xform_v3";
 
 /// Operations of transforms, as the upper four bits of a byte number them, and how many numbers they have.
@@ -119,6 +120,9 @@ void AlembicScene::visit_children(const AlembicObject& object, const Parent& par
     const std::string_view schema = alembic_metadata(child.metadata, "schema");
     const size_t parent_path = path_.size();
     path_.append("/").append(child.name);
+    if (path_.size() > kMaxPathBytes)
+      file.fail(fmt::format("the path of an object has more than {} bytes", kMaxPathBytes),
+                child.group.position);
     Parent inner{parent.to_world, parent.hidden, parent.depth + 1};
     const AlembicCompound properties = archive_.properties(child);
     inner.hidden = is_hidden(archive_, properties, parent.hidden);

@@ -36,7 +36,8 @@ class AlembicScene {
 
   const AlembicArchive& archive() const { return archive_; }
   /// Visits the visible objects that have a schema other than a transform, in the order of the file. Throws
-  /// Error (kInput) when objects contain themselves, are used twice, or are nested deeper than 512 levels.
+  /// Error (kInput) when objects contain themselves, are used twice, are nested deeper than 512 levels, or have
+  /// paths of more than 64 KiB.
   void visit(const std::function<void(const AlembicNode&)>& use);
 
  private:

@@ -222,6 +222,29 @@ TEST_F(AlembicLimits, HostileFilesAreRefused) {
   EXPECT_NE(refusal(index.file({indexed})).find("the index 1 is not one of 1 elements"), std::string::npos);
 }
 
+TEST_F(AlembicLimits, NamesAreShortAndOfOneLine) {
+  const std::vector<std::pair<std::string, const char*>> bad{{std::string(70'000, 'n'), "70000 bytes"},
+                                                             {"c\nerror: more", "control character"},
+                                                             {"c\x1b[31m", "control character"},
+                                                             {"", "a name is empty"}};
+  for (const auto& [name, why] : bad) {
+    OgawaBytes b;
+    EXPECT_NE(refusal(b.file({b.curves(name, {2}, linear_form())})).find(why), std::string::npos) << why;
+  }
+  OgawaBytes b;
+  const Part param = b.array("two\nlines", kFloat, 1, {raw<float>({1, 2, 3, 4, 5})}, "geoScope=vtx");
+  EXPECT_NE(refusal(b.file({b.curves("c", {2}, linear_form(), {}, {param})})).find("control character"),
+            std::string::npos);
+  // Objects within each other that share the header of one long name.
+  OgawaBytes shared;
+  const Part leaf = shared.object(std::string(4000, 'n'), "", {});
+  const uint64_t header = shared.data(leaf.header + std::string(32, 'h'));
+  uint64_t word = leaf.word;
+  for (int i = 0; i < 100; ++i) word = shared.group({0, word, header});
+  EXPECT_NE(refusal(shared.file(word)).find("path of an object has more than 65536 bytes"),
+            std::string::npos);
+}
+
 TEST_F(AlembicLimits, MemoryIsCheckedBeforeItIsTaken) {
   OgawaBytes b;
   const std::vector<int32_t> counts(1000, 10);
