@@ -15,6 +15,8 @@ constexpr uint64_t kLayoutChild = 0, kTopChild = 2, kMetadataChild = 3, kIndexed
 constexpr size_t kSampleKey = 16, kHeaderHashes = 32;
 constexpr uint32_t kInlineMetadata = 255;
 constexpr size_t kMaxNameBytes = size_t(1) << 16;
+// Readers parse each compound a few times.
+constexpr uint64_t kMaxHeaderPasses = 16;
 
 /// Reads headers from a block of data.
 class AlembicHeaderReader {
@@ -123,12 +125,19 @@ void AlembicArchive::read_indexed_metadata(std::span<const std::byte> bytes) {
   while (!in.at_end() && metadata_.size() < kInlineMetadata) metadata_.push_back(in.text(in.number(1)));
 }
 
+void AlembicArchive::count_headers(std::span<const std::byte> headers) const {
+  const uint64_t before = header_bytes_.fetch_add(headers.size(), std::memory_order_relaxed);
+  if (before + headers.size() > kMaxHeaderPasses * file_.size())
+    file_.fail("objects or properties share their headers", headers);
+}
+
 std::vector<AlembicObject> AlembicArchive::children(const AlembicObject& object) const {
   std::vector<AlembicObject> children;
   const uint64_t last = object.group.count - 1;
   if (object.group.count == 0 || file_.is_group(object.group, last)) return children;
   const std::span<const std::byte> bytes = file_.data(object.group, last);
   if (bytes.size() <= kHeaderHashes) return children;
+  count_headers(bytes);
   AlembicHeaderReader in(file_, bytes.first(bytes.size() - kHeaderHashes), "headers of objects");
   while (!in.at_end()) {
     AlembicObject child;
@@ -159,7 +168,9 @@ AlembicCompound AlembicArchive::compound(const AlembicProperty& property) const 
 AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
   AlembicCompound compound;
   if (group.count == 0 || file_.is_group(group, group.count - 1)) return compound;
-  AlembicHeaderReader in(file_, file_.data(group, group.count - 1), "headers of properties");
+  const std::span<const std::byte> bytes_of_headers = file_.data(group, group.count - 1);
+  count_headers(bytes_of_headers);
+  AlembicHeaderReader in(file_, bytes_of_headers, "headers of properties");
   while (!in.at_end()) {
     AlembicProperty property;
     const PropertyBits info{in.number(4)};

@@ -23,9 +23,7 @@ bool has_phantom_ends(const AlembicNode& node) {
   if (!user) return false;
   const AlembicCompound properties = node.archive.compound(*user);
   const AlembicProperty* phantoms = properties.find(kAlembicPhantomEnds);
-  if (!phantoms || !alembic_is_integer(*phantoms)) return false;
-  const std::vector<int64_t> value = alembic_integers(node.archive, *phantoms);
-  return !value.empty() && value[0] == 1;
+  return phantoms && alembic_first_integer(node.archive, *phantoms) == 1;
 }
 
 bool has_clamped_knots(const AlembicNode& node) {
@@ -56,7 +54,7 @@ uint32_t AlembicCurveForm::varying(uint32_t n) const {
 std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings) {
   const AlembicProperty* stated = node.geometry.find("curveBasisAndType");
   std::vector<int64_t> bytes;
-  if (stated && alembic_is_integer(*stated)) bytes = alembic_integers(node.archive, *stated);
+  if (stated && alembic_is_integer(*stated) && alembic_count(node.archive, *stated) <= 4) bytes = alembic_integers(node.archive, *stated);
   if (bytes.size() < 3) node.fail("the curves have no type and basis (curveBasisAndType)");
   if (bytes[0] < 0 || bytes[0] > 2 || bytes[1] < 0 || bytes[1] > 1 || bytes[2] < 0 || bytes[2] > 5) {
     node.fail(fmt::format("unknown curves: type {}, wrap {}, basis {}", bytes[0], bytes[1], bytes[2]));

@@ -133,9 +133,7 @@ class AlembicMeshReader {
     if (mesh_.boundary_tag >= 0) return;
     mesh_.boundary_tag = 1;
     const AlembicProperty* rule = node.geometry.find(".interpolateBoundary");
-    if (!rule || !alembic_is_integer(*rule)) return;
-    const std::vector<int64_t> stated = alembic_integers(node.archive, *rule);
-    if (!stated.empty()) mesh_.boundary_tag = stated[0] == 2 ? 2 : 1;
+    if (rule && alembic_first_integer(node.archive, *rule) == 2) mesh_.boundary_tag = 2;
   }
 
   ControlMesh& mesh_;

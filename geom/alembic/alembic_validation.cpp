@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -17,13 +18,23 @@ namespace {
 /// Some programs compute bounds in single precision.
 constexpr double kBoundsSlack = 1e-4;
 
+/// Numbers are checked as long as they have no more bytes than 64 times the file: objects and samples may
+/// share them, as libraries write equal arrays once, but checks must end.
+constexpr uint64_t kMaxCheckedFiles = 64;
+constexpr size_t kMaxFindings = 1000;
+
 class AlembicCurvesValidator {
  public:
-  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings)
-      : node_(node), warnings_(warnings), findings_(findings) {}
+  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings,
+                         uint64_t& bytes_left)
+      : node_(node), warnings_(warnings), findings_(findings), bytes_left_(bytes_left) {}
 
   void check() {
     ++findings_.curves;
+    if (findings_.problems.size() + findings_.remarks.size() > kMaxFindings) return skip_rest();
+    const uint64_t needed = first_sample_bytes();
+    if (needed > bytes_left_) return skip_rest();
+    bytes_left_ -= needed;
     const std::optional<AlembicCurveForm> form = alembic_curve_form(node_, warnings_);
     if (!form) return problem("its basis is not supported");
     const AlembicProperty *counts = node_.geometry.find("nVertices"), *points = node_.geometry.find("P");
@@ -42,6 +53,29 @@ class AlembicCurvesValidator {
   }
 
  private:
+  void skip_rest() {
+    warnings_.add("curves beyond the first ones are not checked",
+                  {node_.archive.file().path().string(), 0, 0});
+  }
+  /// Bytes of the numbers that are checked even if they are shared.
+  uint64_t first_sample_bytes() const {
+    uint64_t numbers = 0;
+    for (const AlembicProperty& property : node_.geometry.properties)
+      numbers += alembic_param_count(node_.archive, property);
+    return numbers * sizeof(float);
+  }
+  /// Whether a later sample is to be read: one whose block no earlier sample has.
+  bool is_new(const AlembicProperty& property, uint32_t sample, std::set<const std::byte*>& known) {
+    const std::span<const std::byte> bytes = node_.archive.sample(property, sample);
+    if (!known.insert(bytes.data()).second || sample == 0) return sample == 0;
+    if (bytes.size() > bytes_left_) {
+      skip_rest();
+      return false;
+    }
+    bytes_left_ -= bytes.size();
+    return true;
+  }
+
   std::string line(const std::string& text) const {
     return visible(node_.archive.file().path().string() + ": <" + node_.path + ">: " + text);
   }
@@ -63,7 +97,9 @@ class AlembicCurvesValidator {
     findings_.strands += sizes_.uniform;
     if (one > 0) problem(fmt::format("{} strands have one point", one));
     if (few > one) problem(fmt::format("{} strands have too few points for their basis", few - one));
+    std::set<const std::byte*> known{node_.archive.sample(counts).data()};
     for (uint32_t sample = 1; sample < counts.stored; ++sample) {
+      if (!is_new(counts, sample, known)) continue;
       if (alembic_integers(node_.archive, counts, sample) == first) continue;
       counts_change_ = true;
       return problem(fmt::format("nVertices change at sample {}", sample));
@@ -72,7 +108,9 @@ class AlembicCurvesValidator {
 
   void check_points(const AlembicProperty& points) {
     findings_.points += sizes_.vertex;
+    std::set<const std::byte*> known;
     for (uint32_t sample = 0; sample < points.stored; ++sample) {
+      if (!is_new(points, sample, known)) continue;
       const std::vector<float> numbers = alembic_floats(node_.archive, points, sample);
       const std::string when = sample > 0 ? fmt::format(" at sample {}", sample) : "";
       if (numbers.size() != 3 * sizes_.vertex && !(sample > 0 && counts_change_)) {
@@ -118,6 +156,7 @@ class AlembicCurvesValidator {
   const AlembicNode& node_;
   UsdWarnings& warnings_;
   UsdFindings& findings_;
+  uint64_t& bytes_left_;
   UsdPrimvarCounts sizes_;
   Box3f box_;  // of the points at the earliest sample
   bool counts_change_ = false;
@@ -129,10 +168,11 @@ UsdFindings validate_alembic(const std::filesystem::path& path) {
   UsdFindings findings;
   UsdWarnings warnings;
   AlembicScene scene(path, warnings);
+  uint64_t bytes_left = kMaxCheckedFiles * scene.archive().file().size();
   scene.visit([&](const AlembicNode& node) {
     findings.meshes +=
         node.schema.starts_with("AbcGeom_PolyMesh_") || node.schema.starts_with("AbcGeom_SubD_");
-    if (node.schema.starts_with("AbcGeom_Curve_")) AlembicCurvesValidator(node, warnings, findings).check();
+    if (node.schema.starts_with("AbcGeom_Curve_")) AlembicCurvesValidator(node, warnings, findings, bytes_left).check();
   });
   if (findings.curves == 0) findings.problems.push_back(visible(path.string()) + ": has no curves");
   for (const std::string& line : warnings.lines()) findings.remarks.push_back(line);

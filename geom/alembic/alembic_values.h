@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ std::vector<double> alembic_doubles(const AlembicArchive& archive, const Alembic
                                     uint32_t sample = 0);
 std::vector<int64_t> alembic_integers(const AlembicArchive& archive, const AlembicProperty& property,
                                       uint32_t sample = 0);
+
+/// Returns the first number of the earliest sample, without reading the others; empty if there is none or
+/// the numbers are not integers.
+std::optional<int64_t> alembic_first_integer(const AlembicArchive& archive, const AlembicProperty& property);
 
 /// Returns how many numbers the functions above return.
 size_t alembic_count(const AlembicArchive& archive, const AlembicProperty& property, uint32_t sample = 0);

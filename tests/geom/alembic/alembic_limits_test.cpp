@@ -245,6 +245,48 @@ TEST_F(AlembicLimits, NamesAreShortAndOfOneLine) {
             std::string::npos);
 }
 
+TEST_F(AlembicLimits, SharedHeadersAreRefused) {
+  // 2000 objects whose properties are one compound of 2000: 4 million headers in a file of 100 kB.
+  OgawaBytes b;
+  const Part compound = b.compound("a", std::vector<Part>(2000, b.compound("p", {})));
+  std::vector<Part> objects;
+  const uint64_t none = b.data(std::string(32, 'h'));
+  for (int i = 0; i < 2000; ++i) {
+    Part one = b.object("o", "", {});
+    one.word = b.group({compound.word, none});
+    objects.push_back(one);
+  }
+  EXPECT_NE(refusal(b.file(objects)).find("share their headers"), std::string::npos);
+  // As many with compounds of their own.
+  OgawaBytes own;
+  std::vector<Part> different;
+  for (int i = 0; i < 200; ++i)
+    different.push_back(own.object("o", "", std::vector<Part>(200, own.compound("p", {}))));
+  EXPECT_NE(refusal(own.file(different)).find("has no curves"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, ValidationReadsSharedNumbersAFewTimes) {
+  OgawaBytes b;
+  const Part points = b.array("P", kFloat, 3, {raw(std::vector<float>(30000, 1))}),
+             counts = b.array("nVertices", kInt32, 1, {raw<int32_t>({10000})}),
+             form = b.scalar("curveBasisAndType", kUint8, 4, {linear_form()});
+  std::vector<Part> objects;
+  for (int i = 0; i < 300; ++i)
+    objects.push_back(b.object("c", "AbcGeom_Curve_v2", {b.compound(".geom", {points, counts, form})}));
+  const UsdFindings found = validate_alembic(put(b.file(objects)));
+  EXPECT_EQ(found.curves, 300u);
+  EXPECT_LT(found.points, 3'000'000u);
+  EXPECT_NE(found.remarks.back().find("are not checked"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, TransformsHaveFewOperations) {
+  OgawaBytes b;
+  const std::vector<Part> xform{b.array(".ops", kUint8, 1, {std::string(300, '\x10')}),
+                                b.array(".vals", kDouble, 1, {raw(std::vector<double>(900, 0))})};
+  const Part object = b.object("x", "AbcGeom_Xform_v3", {b.compound(".xform", xform)});
+  EXPECT_NE(refusal(b.file({object})).find("more than 255 operations"), std::string::npos);
+}
+
 TEST_F(AlembicLimits, MemoryIsCheckedBeforeItIsTaken) {
   OgawaBytes b;
   const std::vector<int32_t> counts(1000, 10);
