@@ -15,9 +15,9 @@
 namespace pelage {
 namespace {
 
-// Bytes of memory per number while curves are read: numbers are in memory twice, and points that grow or
-// are sorted once more; resampled curves have six points per vertex.
-constexpr int64_t kBytesPerNumber = 12, kBytesPerResampled = 64;
+// Bytes of memory per curve while counts and ids are read: as the file's integers, and as ours.
+constexpr int64_t kBytesPerCount = sizeof(int64_t) + sizeof(uint32_t);
+constexpr int64_t kBytesPerId = sizeof(int64_t) + sizeof(uint64_t);
 constexpr size_t kMaxCurveParams = 32;
 
 /// Removes the first and last element of each curve.
@@ -61,14 +61,13 @@ class AlembicCurvesReader {
     if (!guides_.empty()) warnings_.add("guides (groom_guide) are skipped", place_);
     guides_.clear();
     if (batches_.empty()) throw Error(ErrorKind::kInput, place_, "has no curves");
-    if (batches_.size() > 1) charge(joined_attribute_bytes(batches_));
     UsdCurvesFile file;
     const auto widthed = std::count_if(batches_.begin(), batches_.end(),
                                        [](const UsdCurveBatch& b) { return !b.widths.values.empty(); });
     if (widthed > 0 && widthed < static_cast<ptrdiff_t>(batches_.size()))
       warnings_.add("some curves have no widths; they get the default", place_);
     file.has_widths = widthed > 0;
-    file.strands = join_usd_curves(std::move(batches_));
+    file.strands = join_usd_curves(std::move(batches_), [&](int64_t bytes) { charge(bytes); });
     file.warnings = warnings_.lines();
     return file;
   }
@@ -96,9 +95,8 @@ class AlembicCurvesReader {
     }
     if (points->extent != 3) node.fail(fmt::format("its points have {} coordinates", points->extent));
     const size_t vertices = alembic_count(node.archive, *points) / 3;
-    const int64_t per_number = batch.form.native() ? kBytesPerNumber : kBytesPerResampled;
-    charge(static_cast<int64_t>(3 * vertices) * per_number +
-           static_cast<int64_t>(alembic_count(node.archive, *counts)) * kBytesPerNumber);
+    charge(static_cast<int64_t>(3 * vertices * sizeof(float)) +
+           static_cast<int64_t>(alembic_count(node.archive, *counts)) * kBytesPerCount);
     size_t sum = 0;
     const std::vector<int64_t> stated = alembic_integers(node.archive, *counts);
     batch.counts.reserve(stated.size());
@@ -120,7 +118,7 @@ class AlembicCurvesReader {
 
   std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property) {
     if (!property) return {};
-    charge(static_cast<int64_t>(alembic_param_count(node.archive, *property)) * kBytesPerNumber);
+    charge(static_cast<int64_t>(alembic_param_bytes(node.archive, *property)));
     return alembic_param(node, *property, sizes_, warnings_);
   }
 
@@ -188,7 +186,7 @@ class AlembicCurvesReader {
       warnings_.add("ids that are not one per curve are skipped", place_);
       return;
     }
-    charge(static_cast<int64_t>(count) * kBytesPerNumber * 2);
+    charge(static_cast<int64_t>(count) * kBytesPerId);
     const std::vector<int64_t> ids = alembic_integers(node.archive, property);
     batch.ids.assign(ids.begin(), ids.end());
   }

@@ -2,6 +2,7 @@
 #include "geom/alembic/alembic_mesh_file.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,28 @@
 namespace pelage {
 namespace {
 
+constexpr const char* kColorNames[] = {"Cd", "color"};
 constexpr std::string_view kPolyMesh = "AbcGeom_PolyMesh_", kSubdivision = "AbcGeom_SubD_",
                            kFaceSet = "AbcGeom_FaceSet_";
-// Bytes of memory per number of a mesh: in the part and in the cage, which grows by doubling.
-constexpr size_t kMeshBytesPerNumber = 16;
+// An array that grows by doubling is in memory three times for a moment: once as it was, and once with room
+// for twice as much.
+constexpr size_t kGrown = 3;
+
+/// Bytes per number of a property in the part, as it is read, and in the cage.
+struct MeshNumbers {
+  const char* name;
+  size_t bytes;
+};
+constexpr MeshNumbers kMeshNumbers[] = {
+    {"P", 2 * sizeof(float) + kGrown * sizeof(float)},
+    {".faceIndices", 12 + kGrown * sizeof(uint32_t)},
+    {".faceCounts", 12 + kGrown * (sizeof(uint32_t) + 2 * sizeof(uint16_t))},
+    {".holes", 12 + kGrown * sizeof(uint32_t)},
+    {".cornerIndices", 12 + kGrown * 2 * sizeof(uint32_t)},
+    {".cornerSharpnesses", sizeof(float)},
+    {".creaseIndices", 12 + kGrown * 3 * sizeof(uint32_t)},
+    {".creaseLengths", 12},
+    {".creaseSharpnesses", sizeof(float)}};
 
 class AlembicMeshReader {
  public:
@@ -26,12 +45,30 @@ class AlembicMeshReader {
     return node.schema.starts_with(kPolyMesh) || node.schema.starts_with(kSubdivision);
   }
 
-  /// Numbers of a mesh, for the charge of memory before it is read.
-  static size_t numbers(const AlembicNode& node) {
-    size_t count = 0;
-    for (const AlembicProperty& property : node.geometry.properties)
-      count += alembic_param_count(node.archive, property);
-    return count;
+  /// The memory that the cage and a mesh need until the mesh is in the cage.
+  size_t bytes(const AlembicNode& node) const {
+    const AlembicArchive& archive = node.archive;
+    const auto count = [&](const char* name) {
+      const AlembicProperty* property = node.geometry.find(name);
+      return property ? alembic_count(archive, *property) : 0;
+    };
+    size_t bytes = 2 * mesh_.bytes() + sizeof(V3f) * mesh_.positions.size() + set_bytes(node);
+    for (const MeshNumbers& numbers : kMeshNumbers) bytes += count(numbers.name) * numbers.bytes;
+    if (const AlembicProperty* uv = node.geometry.find("uv"))
+      bytes += (1 + kGrown) * alembic_param_bytes(archive, *uv);
+    if (node.geometry.find("uv") || !mesh_.uv.empty())
+      bytes += kGrown * sizeof(uint32_t) * (count(".faceIndices") + mesh_.face_vertices.size());
+    const AlembicProperty* arbitrary = node.geometry.find(".arbGeomParams");
+    const AlembicCompound params = arbitrary ? archive.compound(*arbitrary) : AlembicCompound();
+    bool colors = !mesh_.colors.empty();
+    for (const char* name : kColorNames) {
+      const AlembicProperty* property = params.find(name);
+      if (!property) continue;
+      colors = true;
+      bytes += alembic_param_bytes(archive, *property);
+    }
+    if (colors) bytes += kGrown * sizeof(Rgb) * (count("P") / 3 + mesh_.positions.size());
+    return bytes;
   }
 
   void add(const AlembicNode& node) {
@@ -99,32 +136,48 @@ class AlembicMeshReader {
     const AlembicProperty* arbitrary = node.geometry.find(".arbGeomParams");
     if (!arbitrary) return;
     const AlembicCompound params = node.archive.compound(*arbitrary);
-    for (const char* name : {"Cd", "color"}) {
+    for (const char* name : kColorNames) {
       const AlembicProperty* colors = params.find(name);
       if (colors && !part.colors) part.colors = alembic_param(node, *colors, part.counts(), warnings_);
     }
   }
 
   /// Face sets are objects within the mesh.
-  void add_groups(const AlembicNode& node, const MeshPart& part) {
+  static void visit_sets(const AlembicNode& node,
+                         const std::function<void(std::string_view, const AlembicProperty&)>& use) {
     for (const AlembicObject& child : node.archive.children(node.object)) {
       if (!alembic_metadata(child.metadata, "schema").starts_with(kFaceSet)) continue;
       const AlembicCompound properties = node.archive.properties(child);
       const AlembicProperty* set = properties.find(".faceset");
       if (!set) continue;
       const AlembicCompound compound = node.archive.compound(*set);
-      const AlembicProperty* faces = compound.find(".faces");
-      if (!faces) continue;
+      if (const AlembicProperty* faces = compound.find(".faces")) use(child.name, *faces);
+    }
+  }
+
+  /// The largest set, and the names of all, which the cage keeps.
+  static size_t set_bytes(const AlembicNode& node) {
+    size_t largest = 0, names = 0;
+    visit_sets(node, [&](std::string_view name, const AlembicProperty& faces) {
+      largest = std::max(largest, alembic_count(node.archive, faces));
+      names += kGrown * sizeof(std::string) + name.size() + 1;
+    });
+    return largest * (sizeof(int64_t) + sizeof(uint32_t)) + names;
+  }
+
+  void add_groups(const AlembicNode& node, const MeshPart& part) {
+    visit_sets(node, [&](std::string_view name, const AlembicProperty& faces) {
       std::vector<uint32_t> group;
-      for (const int64_t face : alembic_integers(node.archive, *faces)) {
+      group.reserve(alembic_count(node.archive, faces));
+      for (const int64_t face : alembic_integers(node.archive, faces)) {
         if (face < 0 || static_cast<size_t>(face) >= part.face_sizes.size()) {
-          node.fail(fmt::format("the face set '{}' has the face {}; there are {}", child.name, face,
+          node.fail(fmt::format("the face set '{}' has the face {}; there are {}", name, face,
                                 part.face_sizes.size()));
         }
         group.push_back(static_cast<uint32_t>(face));
       }
-      joiner_.add_group(std::string(child.name), group);
-    }
+      joiner_.add_group(std::string(name), group);
+    });
   }
 
   /// The rule of the first mesh. Many programs state none, or 0, for meshes that they draw with sharp corners
@@ -150,10 +203,7 @@ UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshRe
   UsdMeshFile file;
   AlembicMeshReader reader(file.mesh, path, warnings);
   scene.visit([&](const AlembicNode& node) {
-    if (reserve) {
-      const size_t numbers = AlembicMeshReader::is_mesh(node) ? AlembicMeshReader::numbers(node) : 0;
-      reserve(static_cast<int64_t>(file.mesh.bytes() + kMeshBytesPerNumber * numbers));
-    }
+    if (reserve && AlembicMeshReader::is_mesh(node)) reserve(static_cast<int64_t>(reader.bytes(node)));
     reader.add(node);
   });
   if (file.mesh.face_count() == 0) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no mesh");

@@ -107,11 +107,13 @@ std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicPr
                         count, counts.vertex, counts.uniform));
 }
 
-size_t alembic_param_count(const AlembicArchive& archive, const AlembicProperty& property) {
+size_t alembic_param_bytes(const AlembicArchive& archive, const AlembicProperty& property) {
   const std::optional<ParamParts> parts = param_parts(archive, property);
   if (!parts || parts->components > kMaxParamComponents) return 0;
-  const size_t values = alembic_count(archive, parts->values);
-  return parts->indices ? values + alembic_count(archive, *parts->indices) * parts->components : values;
+  const size_t values = alembic_count(archive, parts->values) * sizeof(float);
+  if (!parts->indices) return values;
+  return values +
+         alembic_count(archive, *parts->indices) * (sizeof(int64_t) + parts->components * sizeof(float));
 }
 
 }  // namespace pelage

@@ -16,7 +16,7 @@ namespace pelage {
 std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicProperty& property,
                                         const UsdPrimvarCounts& counts, UsdWarnings& warnings);
 
-/// Returns how many numbers alembic_param() returns, without reading them.
-size_t alembic_param_count(const AlembicArchive& archive, const AlembicProperty& property);
+/// Returns the max memory that alembic_param() takes, in bytes, without reading the numbers.
+size_t alembic_param_bytes(const AlembicArchive& archive, const AlembicProperty& property);
 
 }  // namespace pelage

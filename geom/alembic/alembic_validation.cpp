@@ -59,10 +59,10 @@ class AlembicCurvesValidator {
   }
   /// Bytes of the numbers that are checked even if they are shared.
   uint64_t first_sample_bytes() const {
-    uint64_t numbers = 0;
+    uint64_t bytes = 0;
     for (const AlembicProperty& property : node_.geometry.properties)
-      numbers += alembic_param_count(node_.archive, property);
-    return numbers * sizeof(float);
+      bytes += alembic_param_bytes(node_.archive, property);
+    return bytes;
   }
   /// Whether a later sample is to be read: one whose block no earlier sample has.
   bool is_new(const AlembicProperty& property, uint32_t sample, std::set<const std::byte*>& known) {

@@ -12,6 +12,7 @@
 #include "geom/alembic/alembic_validation.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/geom/random_strands.h"
+#include "tests/support/allocation_meter.h"
 
 namespace pelage::alembic_limits_test {
 namespace {
@@ -298,8 +299,46 @@ TEST_F(AlembicLimits, MemoryIsCheckedBeforeItIsTaken) {
   const Part expanded = wide.curves(
       "c", {2}, linear_form(), {},
       {wide.compound("x", {wide.array(".vals", kFloat, 16, {raw(std::vector<float>(16, 1))}),
-                           wide.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(10'000, 0))})})});
+                           wide.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(20'000, 0))})})});
   EXPECT_NE(refusal(wide.file({expanded})).find("needs more than the free memory"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, TheLimitOfMemoryHoldsForAllThatIsTaken) {
+  // Bases that keep their vertices and that are resampled, one curve and many, ids in order and not, and two
+  // objects of different bases; each with wide parameters of vertices and curves.
+  for (const int basis : {0, 1, 3, 4}) {
+    for (const bool one : {false, true}) {
+      OgawaBytes b;
+      const std::vector<int32_t> counts =
+          one ? std::vector<int32_t>{16'001} : std::vector<int32_t>(2000, 8);
+      const size_t vertices = one ? 16'001 : 16'000;
+      std::vector<int32_t> ids(counts.size());
+      for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int32_t>(basis == 3 ? i : ids.size() - i);
+      const std::vector<Part> params{
+          b.array("a", kFloat, 16, {raw(std::vector<float>(16 * vertices, 1))}, "geoScope=vtx"),
+          b.array("b", kFloat, 3, {raw(std::vector<float>(3 * counts.size(), 1))}, "geoScope=uni"),
+          b.compound("c",
+                     {b.array(".vals", kFloat, 3, {raw<float>({1, 2, 3})}, "geoScope=vtx"),
+                      b.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(vertices, 0))})},
+                     "geoScope=vtx"),
+          b.array("groom_id", kInt32, 1, {raw(ids)}, "geoScope=uni")};
+      const std::vector<Part> widths{
+          b.array("width", kFloat, 1, {raw(std::vector<float>(vertices, 1))}, "geoScope=vtx")};
+      const std::string form = basis == 0 ? linear_form() : curve_form(0, 0, basis == 4 ? 2 : basis);
+      std::vector<Part> objects{b.curves("c", counts, form, widths, params)};
+      if (basis == 4) objects.push_back(b.curves("d", {500}, linear_form()));
+      const std::filesystem::path path = put(b.file(objects));
+      reset_peak();
+      const size_t before = live_bytes();
+      read_alembic_curves(path);
+      const size_t peak = peak_bytes() - before;
+      // 64 KiB: paths and headers, which are not counted.
+      const auto refused = static_cast<int64_t>(peak - (1 << 16));
+      EXPECT_THROW(read_alembic_curves(path, {refused}), Error) << basis << one;
+      // The estimate is no more than twice the memory.
+      EXPECT_NO_THROW(read_alembic_curves(path, {static_cast<int64_t>(2 * peak)})) << basis << one;
+    }
+  }
 }
 
 TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
