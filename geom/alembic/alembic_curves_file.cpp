@@ -116,15 +116,16 @@ class AlembicCurvesReader {
     return !batch.counts.empty();
   }
 
-  std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property) {
+  std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property,
+                                  bool needed = false) {
     if (!property) return {};
     charge(static_cast<int64_t>(alembic_param_bytes(node.archive, *property)));
-    return alembic_param(node, *property, sizes_, warnings_);
+    return alembic_param(node, *property, sizes_, warnings_, needed);
   }
 
   void add_widths(const AlembicNode& node, UsdCurveBatch& batch) {
-    set_widths(param(node, node.geometry.find("width")), batch);
-    if (std::optional<UsdPrimvar> uv = param(node, node.geometry.find("uv")); uv && uv->components == 2)
+    set_widths(param(node, node.geometry.find("width"), true), batch);
+    if (std::optional<UsdPrimvar> uv = param(node, node.geometry.find("uv"), true); uv && uv->components == 2)
       batch.root_uv = std::move(*uv);
   }
   static void set_widths(std::optional<UsdPrimvar> widths, UsdCurveBatch& batch) {
@@ -157,7 +158,8 @@ class AlembicCurvesReader {
       warnings_.add("parameters beyond the first 32 are skipped", place_);
       return;
     }
-    std::optional<UsdPrimvar> values = param(node, &property);
+    const bool needed = property.name == "groom_width" || property.name == "groom_root_uv";
+    std::optional<UsdPrimvar> values = param(node, &property, needed);
     if (!values) return;
     if (property.name == "groom_width") return set_widths(std::move(values), batch);
     if (property.name == "groom_root_uv" && values->components == 2) {

@@ -130,7 +130,7 @@ class AlembicMeshReader {
 
   void add_params(const AlembicNode& node, MeshPart& part) {
     if (const AlembicProperty* uv = node.geometry.find("uv")) {
-      part.uv = alembic_param(node, *uv, part.counts(), warnings_);
+      part.uv = alembic_param(node, *uv, part.counts(), warnings_, true);
       if (part.uv && part.uv->components != 2) part.uv.reset();
     }
     const AlembicProperty* arbitrary = node.geometry.find(".arbGeomParams");

@@ -281,6 +281,24 @@ TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
   EXPECT_EQ(a.attributes.size(), 2u);
 }
 
+TEST(AlembicCurves, UnusedParametersOfOtherSizesAreSkipped) {
+  OgawaBytes b;
+  const std::vector<Part> params{
+      b.array("seeds", kFloat, 1, {raw<float>({1, 2, 3, 4, 5, 6, 7})}, "geoScope=con"),
+      b.array("mine", kFloat, 1, {raw<float>({1, 2})}, "geoScope=uni")};
+  const UsdCurvesFile file = read_curves({3, 3}, linear_form(), {}, params, b);
+  ASSERT_EQ(file.strands.attributes.size(), 1u);
+  EXPECT_EQ(file.strands.attributes[0].name, "mine");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(file.warnings[0].find("'seeds' has 7 values; 6 vertices, 2 curves"), std::string::npos);
+  for (const char* needed : {"width", "uv"}) {
+    OgawaBytes bad;
+    const std::vector<Part> geometry{
+        bad.array(needed, kFloat, needed[0] == 'w' ? 1 : 2, {raw(std::vector<float>(14, 1))}, "geoScope=vtx")};
+    EXPECT_THROW(read_curves({3, 3}, linear_form(), geometry, {}, bad), Error) << needed;
+  }
+}
+
 TEST(AlembicCurves, GuidesAreSkippedUnlessThereIsNothingElse) {
   OgawaBytes b;
   const std::vector<Part> guide{b.array("groom_guide", kInt16, 1, {raw<int16_t>({1})}, "geoScope=con")},

@@ -196,6 +196,17 @@ TEST(AlembicMesh, MemoryIsReservedBeforeItIsTaken) {
   }
 }
 
+TEST(AlembicMesh, ColoursOfAnotherSizeAreSkipped) {
+  OgawaBytes b;
+  std::vector<Part> geometry = faces(b);
+  geometry.push_back(b.compound(
+      ".arbGeomParams", {b.array("Cd", kFloat, 3, {raw(std::vector<float>(9, 1))}, "geoScope=vtx")}));
+  const UsdMeshFile file = read(b.file({b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)})}));
+  EXPECT_TRUE(file.mesh.colors.empty());
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(file.warnings[0].find("'Cd' has 3 values"), std::string::npos);
+}
+
 TEST(AlembicMesh, BadMeshesAreRefused) {
   const auto with = [](const std::vector<int32_t>& indices, const std::vector<int32_t>& counts,
                        const char* tag = nullptr, const std::vector<int32_t>& values = {}) {
