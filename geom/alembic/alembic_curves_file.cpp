@@ -143,10 +143,10 @@ class AlembicCurvesReader {
     bool guide = false;
     for (const AlembicProperty& property : params.properties) {
       if (property.name == "groom_guide") {
-        guide = is_guide(node, property);
-      } else if (property.name == "groom_id" || property.name == "ids" || property.name == "id") {
+        guide = is_guide(node, property, batch);
+      } else if (is_ids(property)) {
         add_ids(node, property, batch);
-      } else if (!property.name.starts_with("groom_version_") && !property.name.starts_with("groom_group_")) {
+      } else if (property.name != "groom_version_major" && property.name != "groom_version_minor") {
         add_param(node, property, batch);
       }
     }
@@ -170,15 +170,23 @@ class AlembicCurvesReader {
     batch.attributes.emplace_back(color ? "color" : std::string(property.name), std::move(*values));
   }
 
-  /// Curves are guides if all of them are: those of a constant, and of equal values.
-  bool is_guide(const AlembicNode& node, const AlembicProperty& property) {
-    const std::optional<UsdPrimvar> guides = param(node, &property);
+  /// Curves are guides if all of them are: those of a constant, and of equal values. If some are, all are
+  /// strands with an attribute.
+  bool is_guide(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
+    std::optional<UsdPrimvar> guides = param(node, &property);
     if (!guides) return false;
     const auto marked =
         std::count_if(guides->values.begin(), guides->values.end(), [](float value) { return value != 0; });
-    if (marked > 0 && marked < static_cast<ptrdiff_t>(guides->values.size()))
-      warnings_.add("guides among other curves (groom_guide) are read as strands", place_);
-    return marked == static_cast<ptrdiff_t>(guides->values.size());
+    if (marked == 0 || marked == static_cast<ptrdiff_t>(guides->values.size())) return marked > 0;
+    warnings_.add("guides among other curves (groom_guide) are read as strands with the attribute guide",
+                  place_);
+    batch.attributes.emplace_back("guide", std::move(*guides));
+    return false;
+  }
+
+  static bool is_ids(const AlembicProperty& property) {
+    return property.name == "groom_id" ||
+           ((property.name == "ids" || property.name == "id") && alembic_is_integer(property));
   }
 
   void add_ids(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {

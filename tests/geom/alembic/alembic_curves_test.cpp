@@ -113,6 +113,47 @@ TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
   for (size_t i = 0; i < 6; ++i) EXPECT_EQ(file.strands.points[4 * i + 3], file.strands.points[4 * i]);
 }
 
+TEST(AlembicCurves, NamesOfTheSchemaAreLostOnlyIfTheFileHasThem) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.abc";
+  StrandArrays written = with_everything(CurveBasis::kLinear);
+  const std::vector<float> values(40, 0.5f);
+  written.attributes.clear();
+  for (const char* name : {"groom_roughness", "groom_group_id", "width", "id", "ids", "a/b"})
+    written.attributes.push_back({name, AttributeClass::kPerStrand, 1, values});
+  EXPECT_EQ(what_is_lost(path, Strands(written)), "");
+  write_strands(path, Strands(written));
+  const UsdCurvesFile file = read_alembic_curves(path);
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  EXPECT_EQ(file.strands.ids, written.ids);
+  EXPECT_EQ(file.strands.points, written.points);
+  ASSERT_EQ(file.strands.attributes.size(), 6u);
+  written.attributes.back().name = "a_b";
+  for (const StrandAttribute& one : written.attributes)
+    EXPECT_EQ(attribute(file.strands, one.name).values, one.values) << one.name;
+  for (const char* name : {"groom_id", "groom_root_uv", "groom_group_name", "a/b"})
+    written.attributes.push_back({name, AttributeClass::kPerStrand, 1, values});
+  EXPECT_EQ(what_is_lost(path, Strands(written)),
+            "the attribute groom_id, the attribute groom_root_uv, the attribute groom_group_name, "
+            "the attribute a/b");
+  written.attributes = {{"groom_width", AttributeClass::kPerStrand, 1, values}};
+  EXPECT_EQ(lost_alembic_attributes(Strands(written), alembic_facts(path, true, AlembicHost::kUnreal)),
+            std::vector<std::string>{"groom_width"});
+}
+
+TEST(AlembicCurves, GuidesAmongStrandsStayMarked) {
+  const TemporaryFolder folder;
+  StrandArrays written = with_everything(CurveBasis::kLinear);
+  std::vector<float> guide(40, 0);
+  guide[3] = 1, guide[4] = 1e9f, guide[5] = NAN;
+  written.attributes = {{"guide", AttributeClass::kPerStrand, 1, guide}};
+  write_strands(folder.path() / "a.abc", Strands(written));
+  const UsdCurvesFile file = read_alembic_curves(folder.path() / "a.abc");
+  guide[4] = guide[5] = 1;
+  EXPECT_EQ(attribute(file.strands, "guide").values, guide);
+  EXPECT_EQ(attribute(file.strands, "guide").frequency, AttributeClass::kPerStrand);
+}
+
 TEST(AlembicCurves, StrandsThatMoveAreWrittenAtTheirFirstKey) {
   const TemporaryFolder folder;
   RandomStrandOptions options;
