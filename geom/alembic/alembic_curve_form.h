@@ -18,8 +18,9 @@ struct AlembicCurveForm {
   uint32_t varying(uint32_t n) const;
 };
 
-/// Returns the form of the curves of an object. A B-spline whose knots begin with three equal ones passes
-/// through its first vertex, so it is read as pinned. `warnings`: receives what is approximated. Empty for
+/// Returns the form of the curves of an object. B-splines whose knots are all threefold are Bezier curves.
+/// Curves with other knots that are not uniform are approximated: by pinned B-splines if any of them has a
+/// threefold knot at an end, so passes through its end vertex. `warnings`: receives what is approximated. Empty for
 /// curves that cannot be read: those with the bases Hermite and power. Throws Error
 /// (kInput) with the path of the object when the type or basis is missing or unknown.
 std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings);

@@ -45,6 +45,11 @@ class AlembicCurvesReader {
       warnings_.add("surfaces of NURBS and points are skipped", place_);
     if (!node.schema.starts_with("AbcGeom_Curve_")) return;
     UsdCurveBatch batch;
+    const AlembicProperty *knots = node.geometry.find(".knots"), *counts = node.geometry.find("nVertices");
+    if (knots && counts) {
+      charge(static_cast<int64_t>(alembic_count(node.archive, *knots) * sizeof(float) +
+                                  alembic_count(node.archive, *counts) * sizeof(int64_t)));
+    }
     const std::optional<AlembicCurveForm> form = alembic_curve_form(node, warnings_);
     if (!form) return;
     batch.form = form->form;

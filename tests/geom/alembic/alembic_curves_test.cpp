@@ -289,12 +289,44 @@ TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
   OgawaBytes knots;
   const std::vector<Part> clamped{
       knots.array(".knots", kFloat, 1, {raw<float>({0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4})})};
-  EXPECT_EQ(basis_of(curve_form(0, 0, 2), clamped, knots).basis, CurveBasis::kPinnedBSpline);
+  const UsdCurvesFile pinned = read_curves({7}, curve_form(0, 0, 2), clamped, {}, knots);
+  EXPECT_EQ(pinned.strands.basis, CurveBasis::kPinnedBSpline);
+  ASSERT_EQ(pinned.warnings.size(), 1u);
+  EXPECT_NE(pinned.warnings[0].find("approximated by uniform B-splines"), std::string::npos);
   OgawaBytes orders;
   const std::vector<Part> cubic{orders.array(".orders", kUint8, 1, {"\4"})};
   EXPECT_EQ(basis_of(curve_form(2, 0, 0), cubic, orders).basis, CurveBasis::kBSpline);
   OgawaBytes power;
   EXPECT_THROW(basis_of(curve_form(0, 0, 5), {}, power), Error);  // skipped: no curves are left
+}
+
+TEST(AlembicCurves, BSplinesWithThreefoldKnotsAreBezierCurves) {
+  const auto read_knots = [](const std::vector<int32_t>& counts, const std::vector<float>& knots, int basis) {
+    OgawaBytes b;
+    return read_curves(counts, curve_form(0, 0, basis), {b.array(".knots", kFloat, 1, {raw(knots)})}, {}, b);
+  };
+  const std::vector<float> one{0, 0, 0, 0, 1, 1, 1, 1}, two{0, 0, 0, 0, 1, 1, 1, 5, 5, 5, 5},
+      without_ends{0, 0, 0, 1, 1, 1}, uniform{0, 1, 2, 3, 4, 5, 6, 7};
+  for (const auto& [counts, knots] : {std::pair(std::vector<int32_t>{4}, one), std::pair(std::vector<int32_t>{7}, two),
+                                      std::pair(std::vector<int32_t>{4}, without_ends)}) {
+    const UsdCurvesFile file = read_knots(counts, knots, 2), bezier = read_knots(counts, {}, 1);
+    EXPECT_EQ(file.warnings, std::vector<std::string>());
+    EXPECT_EQ(file.strands.basis, bezier.strands.basis);
+    EXPECT_EQ(file.strands.points, bezier.strands.points);
+  }
+  const UsdCurvesFile plain = read_knots({4}, uniform, 2);
+  EXPECT_EQ(plain.warnings, std::vector<std::string>());
+  EXPECT_EQ(plain.strands.basis, CurveBasis::kBSpline);
+  // The knots of the second curve count, too.
+  std::vector<float> both = uniform;
+  both.insert(both.end(), one.begin(), one.end());
+  const UsdCurvesFile mixed = read_knots({4, 4}, both, 2);
+  EXPECT_EQ(mixed.strands.basis, CurveBasis::kPinnedBSpline);
+  EXPECT_EQ(mixed.warnings.size(), 1u);
+  const UsdCurvesFile misfit = read_knots({4}, two, 2);
+  EXPECT_EQ(misfit.strands.basis, CurveBasis::kBSpline);
+  ASSERT_EQ(misfit.warnings.size(), 1u);
+  EXPECT_NE(misfit.warnings[0].find("knots that do not fit"), std::string::npos);
 }
 
 TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
