@@ -61,11 +61,11 @@ class AlembicCurvesReader {
     (guide ? guides_ : batches_).push_back(std::move(batch));
   }
 
-  UsdCurvesFile finish() {
+  UsdCurvesFile finish(const AlembicScene& scene) {
     if (batches_.empty()) batches_.swap(guides_);
     if (!guides_.empty()) warnings_.add("guides (groom_guide) are skipped", place_);
     guides_.clear();
-    if (batches_.empty()) throw Error(ErrorKind::kInput, place_, "has no curves");
+    if (batches_.empty()) fail_without(scene, "has no curves", warnings_);
     UsdCurvesFile file;
     const auto widthed = std::count_if(batches_.begin(), batches_.end(),
                                        [](const UsdCurveBatch& b) { return !b.widths.values.empty(); });
@@ -232,7 +232,7 @@ UsdCurvesFile read_alembic_curves(const std::filesystem::path& path, const UsdCu
   AlembicScene scene(path, warnings);
   AlembicCurvesReader reader(options, path, warnings);
   scene.visit([&](const AlembicNode& node) { reader.add(node); });
-  return reader.finish();
+  return reader.finish(scene);
 }
 
 }  // namespace pelage

@@ -39,7 +39,7 @@ constexpr MeshNumbers kMeshNumbers[] = {
 class AlembicMeshReader {
  public:
   AlembicMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
-      : mesh_(mesh), joiner_(mesh), place_{path.string(), 0, 0}, warnings_(warnings) {}
+      : mesh_(mesh), joiner_(mesh, path), place_{path.string(), 0, 0}, warnings_(warnings) {}
 
   static bool is_mesh(const AlembicNode& node) {
     return node.schema.starts_with(kPolyMesh) || node.schema.starts_with(kSubdivision);
@@ -102,7 +102,6 @@ class AlembicMeshReader {
       part.points.push_back(V3f(numbers[i], numbers[i + 1], numbers[i + 2]) * node.to_world);
   }
 
-  /// Negative numbers become large ones, which the part reports as indices out of range.
   static std::vector<uint32_t> indices(const AlembicNode& node, const char* name, bool required = false) {
     const AlembicProperty* property = node.geometry.find(name);
     if (!property && required) node.fail(fmt::format("the mesh has no {}", name));
@@ -110,8 +109,11 @@ class AlembicMeshReader {
     if (!property) return result;
     const std::vector<int64_t> numbers = alembic_integers(node.archive, *property);
     result.reserve(numbers.size());
-    for (const int64_t number : numbers)
-      result.push_back(number < 0 || number > UINT32_MAX ? UINT32_MAX : static_cast<uint32_t>(number));
+    for (const int64_t number : numbers) {
+      // The part checks numbers that are too large for the mesh.
+      if (number < 0 || number > UINT32_MAX) node.fail(fmt::format("{} has the number {}", name, number));
+      result.push_back(static_cast<uint32_t>(number));
+    }
     return result;
   }
   static std::vector<float> floats(const AlembicNode& node, const char* name) {
@@ -206,7 +208,7 @@ UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshRe
     if (reserve && AlembicMeshReader::is_mesh(node)) reserve(static_cast<int64_t>(reader.bytes(node)));
     reader.add(node);
   });
-  if (file.mesh.face_count() == 0) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no mesh");
+  if (file.mesh.face_count() == 0) fail_without(scene, "has no mesh", warnings);
   reader.finish();
   file.warnings = warnings.lines();
   return file;

@@ -69,6 +69,13 @@ void AlembicNode::fail(const std::string& message) const {
               visible(fmt::format("<{}>: {}", path, message)));
 }
 
+void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings) {
+  const std::string file = scene.archive().file().path().string(), prefix = visible(file + ": ");
+  for (const std::string& line : warnings.lines())
+    lacking += "; " + (line.starts_with(prefix) ? line.substr(prefix.size()) : line);
+  throw Error(ErrorKind::kInput, {file, 0, 0}, lacking);
+}
+
 Imath::M44d alembic_transform(const AlembicArchive& archive, const AlembicCompound& transform,
                               bool& inherits) {
   const AlembicProperty* stated = transform.find(".inherits");

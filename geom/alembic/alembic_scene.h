@@ -51,6 +51,9 @@ class AlembicScene {
   std::string path_;            // of the object that is visited
 };
 
+/// Throws Error (kInput): the file, what it lacks ("has no curves") and the warnings, which may be the reason.
+[[noreturn]] void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings);
+
 /// Returns the matrix of a transform (a compound property .xform), for row vectors. `inherits`: whether the
 /// transform of the parent applies, too. Throws Error (kInput) for malformed values.
 Imath::M44d alembic_transform(const AlembicArchive& archive, const AlembicCompound& transform,

@@ -297,7 +297,13 @@ TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
   const std::vector<Part> cubic{orders.array(".orders", kUint8, 1, {"\4"})};
   EXPECT_EQ(basis_of(curve_form(2, 0, 0), cubic, orders).basis, CurveBasis::kBSpline);
   OgawaBytes power;
-  EXPECT_THROW(basis_of(curve_form(0, 0, 5), {}, power), Error);  // skipped: no curves are left
+  try {
+    basis_of(curve_form(0, 0, 5), {}, power);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("has no curves; curves with the bases Hermite and power are skipped"),
+              std::string::npos);
+  }
 }
 
 TEST(AlembicCurves, BSplinesWithThreefoldKnotsAreBezierCurves) {

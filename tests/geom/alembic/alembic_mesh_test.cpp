@@ -6,6 +6,7 @@
 #include "base/temporary_folder.h"
 #include "geom/alembic/alembic_mesh_file.h"
 #include "geom/io/mesh_file.h"
+#include "geom/io/mesh_joiner.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/support/allocation_meter.h"
 
@@ -216,7 +217,8 @@ TEST(AlembicMesh, BadMeshesAreRefused) {
     return refusal(b.file({b.object("m", "AbcGeom_SubD_v1", {b.compound(".geom", geometry)})}));
   };
   EXPECT_NE(with({0, 1, 5}, {3}).find("a.abc: </m>: the index 5 is not one of 5 points"), std::string::npos);
-  EXPECT_NE(with({0, 1, -1}, {3}).find("the index -1"), std::string::npos);
+  EXPECT_NE(with({0, 1, -7}, {3}).find("</m>: .faceIndices has the number -7"), std::string::npos);
+  EXPECT_NE(with({0, 1, 2}, {-3}).find("</m>: .faceCounts has the number -3"), std::string::npos);
   EXPECT_NE(with({0, 1, 1}, {3}).find("face 0 has fewer than 3 different points"), std::string::npos);
   EXPECT_NE(with({0, 1, 2}, {4}).find("need more indices"), std::string::npos);
   EXPECT_NE(with({0, 1, 2}, {1'000'000'000}).find("need more indices"), std::string::npos);
@@ -224,9 +226,36 @@ TEST(AlembicMesh, BadMeshesAreRefused) {
   EXPECT_NE(with({0, 1, 2}, {3}, ".holes", {1}).find("a hole is not one"), std::string::npos);
   EXPECT_NE(with({0, 1, 2}, {3}, ".creaseLengths", {2}).find("creases need more"), std::string::npos);
   EXPECT_NE(with({0, 1, 2}, {3}, ".cornerIndices", {1}).find("too few sharpnesses"), std::string::npos);
+  OgawaBytes large;
+  std::vector<Part> geometry = faces(large);
+  geometry[1] = large.array(".faceIndices", Pod(8), 1, {raw<int64_t>({0, 1, 5'000'000'000})});
+  geometry[2] = large.array(".faceCounts", kInt32, 1, {raw<int32_t>({3})});
+  EXPECT_NE(refusal(large.file({large.object("m", "AbcGeom_PolyMesh_v1", {large.compound(".geom", geometry)})}))
+                .find("has the number 5000000000"),
+            std::string::npos);
   OgawaBytes b;
   const Part curves = b.curves("c", {3}, linear_form());
   EXPECT_NE(refusal(b.file({curves})).find("has no mesh"), std::string::npos);
+  const Part hidden = b.object("m", "AbcGeom_PolyMesh_v1",
+                               {b.compound(".geom", faces(b)), b.scalar("visible", kInt8, 1, {std::string(1, '\0')})});
+  EXPECT_NE(refusal(b.file({hidden})).find("a.abc: has no mesh; hidden objects are skipped"), std::string::npos);
+}
+
+TEST(AlembicMesh, TooManyFacesAreRefusedWithTheFile) {
+  ControlMesh mesh;
+  MeshJoiner joiner(mesh, "a.abc", 4);
+  MeshPart part;
+  part.name = "m";
+  part.points = {V3f(0, 0, 0), V3f(1, 0, 0), V3f(0, 1, 0)};
+  part.face_sizes = {3};
+  part.face_vertices = {0, 1, 2};
+  joiner.add(part);
+  try {
+    joiner.add(part);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "a.abc: the meshes up to 'm' have too many points or faces");
+  }
 }
 
 }  // namespace
