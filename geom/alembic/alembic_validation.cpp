@@ -15,7 +15,8 @@
 namespace pelage {
 namespace {
 
-/// Some programs compute bounds in single precision.
+/// Fraction of the diagonal of a box by which it may be too small. Programs that compute bounds in single
+/// precision round coordinates by 2^-24 of their size, which may be a thousand times that of the strands.
 constexpr double kBoundsSlack = 1e-4;
 
 /// Numbers are checked as long as they have no more bytes than 64 times the file: objects and samples may
@@ -42,10 +43,11 @@ class AlembicCurvesValidator {
       return problem("it has no nVertices or no P");
     check_counts(*counts, *form);
     check_points(*points);
-    check_widths();
-    check_bounds();
     const AlembicProperty* arbitrary = node_.geometry.find(".arbGeomParams");
     const AlembicCompound params = arbitrary ? node_.archive.compound(*arbitrary) : AlembicCompound();
+    const AlembicProperty* width = node_.geometry.find("width");
+    check_widths(width ? width : params.find("groom_width"));
+    check_bounds();
     if (!node_.geometry.find("uv") && !params.find("groom_root_uv"))
       remark("the roots have no texture coordinates (groom_root_uv or uv)");
     if (!params.find("groom_id") && !params.find("ids") && !params.find("id"))
@@ -62,6 +64,10 @@ class AlembicCurvesValidator {
     uint64_t bytes = 0;
     for (const AlembicProperty& property : node_.geometry.properties)
       bytes += alembic_param_bytes(node_.archive, property);
+    const AlembicProperty* arbitrary = node_.geometry.find(".arbGeomParams");
+    const AlembicCompound params = arbitrary ? node_.archive.compound(*arbitrary) : AlembicCompound();
+    if (const AlembicProperty* width = params.find("groom_width"))
+      bytes += alembic_param_bytes(node_.archive, *width);
     return bytes;
   }
   /// Whether a later sample is to be read: one whose block no earlier sample has.
@@ -87,8 +93,10 @@ class AlembicCurvesValidator {
     const std::vector<int64_t> first = alembic_integers(node_.archive, counts);
     for (const int64_t n : first) {
       const auto count = static_cast<uint32_t>(std::clamp<int64_t>(n, 0, UINT32_MAX));
-      one += count == 1;
-      few += form.form.segments(count) == 0;
+      const uint32_t own = form.phantom_ends ? std::max(count, 2u) - 2 : count;
+      one += own == 1;
+      few += form.form.segments(own) == 0;
+      findings_.points += own;
       sizes_.vertex += count;
       sizes_.varying += form.varying(count);
       ++sizes_.uniform;
@@ -107,7 +115,7 @@ class AlembicCurvesValidator {
   }
 
   void check_points(const AlembicProperty& points) {
-    findings_.points += sizes_.vertex;
+    if (points.extent != 3) return problem(fmt::format("its points have {} coordinates", points.extent));
     std::set<const std::byte*> known;
     for (uint32_t sample = 0; sample < points.stored; ++sample) {
       if (!is_new(points, sample, known)) continue;
@@ -127,10 +135,13 @@ class AlembicCurvesValidator {
     }
   }
 
-  void check_widths() {
-    const AlembicProperty* property = node_.geometry.find("width");
-    const std::optional<UsdPrimvar> widths =
-        property ? alembic_param(node_, *property, sizes_, warnings_) : std::nullopt;
+  void check_widths(const AlembicProperty* property) {
+    std::optional<UsdPrimvar> widths;
+    try {
+      if (property) widths = alembic_param(node_, *property, sizes_, warnings_, true);
+    } catch (const Error& error) {
+      return findings_.problems.push_back(error.what());
+    }
     if (!widths) return problem("it has no widths; programs choose their own, often 1");
     const auto bad = std::count_if(widths->values.begin(), widths->values.end(),
                                    [](float w) { return !(w >= 0) || std::isinf(w); });

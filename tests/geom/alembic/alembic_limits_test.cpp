@@ -362,11 +362,26 @@ TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
                            "1 coordinates of points are not finite", "1 widths are negative",
                            "smaller than the strands", "no texture coordinates", "no ids"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
+  OgawaBytes wrong;
+  const std::vector<Part> sizes{
+      wrong.array("P", kFloat, 2, {raw<float>({0, 0, 1, 1})}), wrong.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
+      wrong.scalar("curveBasisAndType", kUint8, 4, {linear_form()}),
+      wrong.array("width", kFloat, 1, {raw<float>({1, 1, 1})}, "geoScope=vtx")};
+  const std::string odd =
+      findings(wrong.file({wrong.object("c", "AbcGeom_Curve_v2", {wrong.compound(".geom", sizes)})}));
+  EXPECT_NE(odd.find("a.abc: </c>: its points have 2 coordinates"), std::string::npos) << odd;
+  EXPECT_NE(odd.find("a.abc: </c>: 'width' has 3 values; 2 vertices"), std::string::npos) << odd;
+  OgawaBytes groom;
+  const Part width = groom.array("groom_width", kFloat, 1, {raw<float>({1, 1})}, "geoScope=vtx");
+  EXPECT_EQ(findings(groom.file({groom.curves("c", {2}, linear_form(), {}, {width})})).find("no widths"),
+            std::string::npos);
   const std::filesystem::path good = folder_.path() / "good.abc";
   StrandArrays strands = random_strands(3).arrays();
   strands.root_uv.resize(strands.ids.size());
   write_alembic_strands(good, Strands(strands), {});
   EXPECT_EQ(findings(read_file(good)), "");
+  const UsdFindings counted = validate_alembic(good);  // of which "good" has phantoms
+  EXPECT_EQ(counted.points, strands.points.size() / 4);
 }
 
 }  // namespace
