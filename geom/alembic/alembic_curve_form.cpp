@@ -15,10 +15,6 @@ namespace {
 using Basis = UsdCurveForm::Basis;
 using Wrap = UsdCurveForm::Wrap;
 
-// The bytes of curveBasisAndType.
-enum class AlembicCurveType { kCubic, kLinear, kVariableOrder };
-enum class AlembicBasis { kNone, kBezier, kBSpline, kCatmullRom, kHermite, kPower };
-
 bool has_phantom_ends(const AlembicNode& node) {
   const AlembicProperty* user = node.geometry.find(".userProperties");
   if (!user) return false;

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "geom/alembic/alembic_scene.h"
 #include "geom/usd/usd_curve_form.h"
 
 namespace pelage {
+
+/// The first and the third byte of curveBasisAndType.
+enum class AlembicCurveType : uint8_t { kCubic, kLinear, kVariableOrder };
+enum class AlembicBasis : uint8_t { kNone, kBezier, kBSpline, kCatmullRom, kHermite, kPower };
 
 /// How curves of Alembic are read.
 struct AlembicCurveForm {

@@ -41,9 +41,8 @@ class AlembicCurvesReader {
       : options_(options), place_{path.string(), 0, 0}, warnings_(warnings) {}
 
   void add(const AlembicNode& node) {
-    if (node.schema.starts_with("AbcGeom_NuPatch") || node.schema.starts_with("AbcGeom_Points"))
-      warnings_.add("surfaces of NURBS and points are skipped", place_);
-    if (!node.schema.starts_with("AbcGeom_Curve_")) return;
+    node.note_unreadable(warnings_);
+    if (!node.is_curves()) return;
     UsdCurveBatch batch;
     const AlembicProperty *knots = node.geometry.find(".knots"), *counts = node.geometry.find("nVertices");
     if (knots && counts) {

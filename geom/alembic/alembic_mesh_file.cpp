@@ -14,8 +14,7 @@ namespace pelage {
 namespace {
 
 constexpr const char* kColorNames[] = {"Cd", "color"};
-constexpr std::string_view kPolyMesh = "AbcGeom_PolyMesh_", kSubdivision = "AbcGeom_SubD_",
-                           kFaceSet = "AbcGeom_FaceSet_";
+constexpr std::string_view kFaceSet = "AbcGeom_FaceSet_";
 // An array that grows by doubling is in memory three times for a moment: once as it was, and once with room
 // for twice as much.
 constexpr size_t kGrown = 3;
@@ -40,10 +39,6 @@ class AlembicMeshReader {
  public:
   AlembicMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
       : mesh_(mesh), joiner_(mesh, path), place_{path.string(), 0, 0}, warnings_(warnings) {}
-
-  static bool is_mesh(const AlembicNode& node) {
-    return node.schema.starts_with(kPolyMesh) || node.schema.starts_with(kSubdivision);
-  }
 
   /// The memory that the cage and a mesh need until the mesh is in the cage.
   size_t bytes(const AlembicNode& node) const {
@@ -72,9 +67,8 @@ class AlembicMeshReader {
   }
 
   void add(const AlembicNode& node) {
-    if (node.schema.starts_with("AbcGeom_NuPatch") || node.schema.starts_with("AbcGeom_Points"))
-      warnings_.add("surfaces of NURBS and points are skipped", place_);
-    if (!is_mesh(node)) return;
+    node.note_unreadable(warnings_);
+    if (!node.is_mesh()) return;
     MeshPart part;
     part.name = node.path.substr(node.path.rfind('/') + 1);
     add_points(node, part);
@@ -205,7 +199,7 @@ UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshRe
   UsdMeshFile file;
   AlembicMeshReader reader(file.mesh, path, warnings);
   scene.visit([&](const AlembicNode& node) {
-    if (reserve && AlembicMeshReader::is_mesh(node)) reserve(static_cast<int64_t>(reader.bytes(node)));
+    if (reserve && node.is_mesh()) reserve(static_cast<int64_t>(reader.bytes(node)));
     reader.add(node);
   });
   if (file.mesh.face_count() == 0) fail_without(scene, "has no mesh", warnings);

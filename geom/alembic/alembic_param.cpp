@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kMaxParamComponents = 16;
 
-/// The values of a parameter and its indices, which unindexed parameters have not.
+/// The values of a parameter, and the indices of an indexed one.
 struct ParamParts {
   AlembicProperty values;
   std::optional<AlembicProperty> indices;

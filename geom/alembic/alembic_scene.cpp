@@ -64,6 +64,11 @@ bool is_hidden(const AlembicArchive& archive, const AlembicCompound& properties,
 
 }  // namespace
 
+void AlembicNode::note_unreadable(UsdWarnings& warnings) const {
+  if (schema.starts_with("AbcGeom_NuPatch") || schema.starts_with("AbcGeom_Points"))
+    warnings.add("surfaces of NURBS and points are skipped", {archive.file().path().string(), 0, 0});
+}
+
 void AlembicNode::fail(const std::string& message) const {
   throw Error(ErrorKind::kInput, {archive.file().path().string(), 0, 0},
               visible(fmt::format("<{}>: {}", path, message)));

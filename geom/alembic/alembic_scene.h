@@ -23,6 +23,12 @@ struct AlembicNode {
   M44f to_world;             ///< from the space of the object, for row vectors
   const AlembicObject& object;
 
+  bool is_curves() const { return schema.starts_with("AbcGeom_Curve_"); }
+  bool is_mesh() const {
+    return schema.starts_with("AbcGeom_PolyMesh_") || schema.starts_with("AbcGeom_SubD_");
+  }
+  /// Adds a warning if objects of this kind are never read: surfaces of NURBS, and points.
+  void note_unreadable(UsdWarnings& warnings) const;
   /// Throws Error (kInput) with the file and the path of the object.
   [[noreturn]] void fail(const std::string& message) const;
 };

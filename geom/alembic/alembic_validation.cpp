@@ -181,9 +181,8 @@ UsdFindings validate_alembic(const std::filesystem::path& path) {
   AlembicScene scene(path, warnings);
   uint64_t bytes_left = kMaxCheckedFiles * scene.archive().file().size();
   scene.visit([&](const AlembicNode& node) {
-    findings.meshes +=
-        node.schema.starts_with("AbcGeom_PolyMesh_") || node.schema.starts_with("AbcGeom_SubD_");
-    if (node.schema.starts_with("AbcGeom_Curve_")) AlembicCurvesValidator(node, warnings, findings, bytes_left).check();
+    findings.meshes += node.is_mesh();
+    if (node.is_curves()) AlembicCurvesValidator(node, warnings, findings, bytes_left).check();
   });
   if (findings.curves == 0) findings.problems.push_back(visible(path.string()) + ": has no curves");
   for (const std::string& line : warnings.lines()) findings.remarks.push_back(line);

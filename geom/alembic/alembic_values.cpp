@@ -114,13 +114,6 @@ size_t alembic_count(const AlembicArchive& archive, const AlembicProperty& prope
   return number == 0 ? 0 : whole_elements(archive, property, sample).size() / number;
 }
 
-std::string alembic_text(const AlembicArchive& archive, const AlembicProperty& property) {
-  if (property.pod != AlembicPod::kText) return {};
-  const std::span<const std::byte> bytes = archive.sample(property);
-  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return std::string(all.substr(0, all.find('\0')));  // each text ends with a zero
-}
-
 bool alembic_is_integer(const AlembicProperty& property) {
   return property.kind != AlembicProperty::Kind::kCompound && property.pod <= AlembicPod::kInt64;
 }

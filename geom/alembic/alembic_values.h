@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "geom/alembic/alembic_archive.h"
@@ -26,9 +25,6 @@ std::optional<int64_t> alembic_first_integer(const AlembicArchive& archive, cons
 
 /// Returns how many numbers the functions above return.
 size_t alembic_count(const AlembicArchive& archive, const AlembicProperty& property, uint32_t sample = 0);
-
-/// Returns the first text of a property; empty if it has none.
-std::string alembic_text(const AlembicArchive& archive, const AlembicProperty& property);
 
 /// Whether a property holds integers.
 bool alembic_is_integer(const AlembicProperty& property);
