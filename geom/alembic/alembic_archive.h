@@ -61,7 +61,8 @@ std::string_view alembic_metadata(std::string_view metadata, std::string_view ke
 /// The objects and properties of an Alembic file. Members throw Error (kInput) with the position in bytes
 /// where the file is malformed, or has names of more than 64 KiB or with control characters; also when they
 /// have read 16 times as many bytes of headers as the file has, since only objects and properties that share
-/// their headers need so many, which no library writes. Thread safety: const members may be called from any thread.
+/// their headers need so many, which no library writes. Thread safety: const members may be called from any
+/// thread.
 class AlembicArchive {
  public:
   explicit AlembicArchive(const std::filesystem::path& path);

@@ -95,7 +95,8 @@ uint32_t AlembicCurveForm::varying(uint32_t n) const {
 std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings) {
   const AlembicProperty* stated = node.geometry.find("curveBasisAndType");
   std::vector<int64_t> bytes;
-  if (stated && alembic_is_integer(*stated) && alembic_count(node.archive, *stated) <= 4) bytes = alembic_integers(node.archive, *stated);
+  if (stated && alembic_is_integer(*stated) && alembic_count(node.archive, *stated) <= 4)
+    bytes = alembic_integers(node.archive, *stated);
   if (bytes.size() < 3) node.fail("the curves have no type and basis (curveBasisAndType)");
   if (bytes[0] < 0 || bytes[0] > 2 || bytes[1] < 0 || bytes[1] > 1 || bytes[2] < 0 || bytes[2] > 5) {
     node.fail(fmt::format("unknown curves: type {}, wrap {}, basis {}", bytes[0], bytes[1], bytes[2]));

@@ -25,9 +25,9 @@ struct AlembicCurveForm {
 
 /// Returns the form of the curves of an object. B-splines whose knots are all threefold are Bezier curves.
 /// Curves with other knots that are not uniform are approximated: by pinned B-splines if any of them has a
-/// threefold knot at an end, so passes through its end vertex. `warnings`: receives what is approximated. Empty for
-/// curves that cannot be read: those with the bases Hermite and power. Throws Error
-/// (kInput) with the path of the object when the type or basis is missing or unknown.
+/// threefold knot at an end, so passes through its end vertex. `warnings`: receives what is approximated.
+/// Empty for curves that cannot be read: those with the bases Hermite and power. Throws Error (kInput) with
+/// the path of the object when the type or basis is missing or unknown.
 std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings);
 
 }  // namespace pelage

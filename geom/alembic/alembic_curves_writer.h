@@ -29,8 +29,8 @@ void add_alembic_curves(AlembicWriter& writer, AlembicObjectWriter& parent, cons
 /// only in '/' and '_', the first is written.
 std::vector<std::string> lost_alembic_attributes(const Strands& strands, const AlembicCurvesFacts& facts);
 
-/// Returns an object with the identity as its transform, with the parameters that identify Unreal's groom schema:
-/// groom_version_major 1, groom_version_minor 4 and groom_tool.
+/// Returns an object with the identity as its transform, with the parameters that identify Unreal's groom
+/// schema: groom_version_major 1, groom_version_minor 4 and groom_tool.
 AlembicObjectWriter alembic_groom(AlembicWriter& writer, const std::string& name);
 
 }  // namespace pelage

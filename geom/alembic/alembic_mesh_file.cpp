@@ -27,7 +27,7 @@ struct MeshNumbers {
 constexpr MeshNumbers kMeshNumbers[] = {
     {"P", 2 * sizeof(float) + kGrown * sizeof(float)},
     {".faceIndices", 12 + kGrown * sizeof(uint32_t)},
-    {".faceCounts", 12 + kGrown * (sizeof(uint32_t) + 2 * sizeof(uint16_t))},
+    {".faceCounts", 12 + kGrown*(sizeof(uint32_t) + 2 * sizeof(uint16_t))},
     {".holes", 12 + kGrown * sizeof(uint32_t)},
     {".cornerIndices", 12 + kGrown * 2 * sizeof(uint32_t)},
     {".cornerSharpnesses", sizeof(float)},

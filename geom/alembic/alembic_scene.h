@@ -42,8 +42,8 @@ class AlembicScene {
 
   const AlembicArchive& archive() const { return archive_; }
   /// Visits the visible objects that have a schema other than a transform, in the order of the file. Throws
-  /// Error (kInput) when objects contain themselves, are used twice, are nested deeper than 512 levels, or have
-  /// paths of more than 64 KiB.
+  /// Error (kInput) when objects contain themselves, are used twice, are nested deeper than 512 levels, or
+  /// have paths of more than 64 KiB.
   void visit(const std::function<void(const AlembicNode&)>& use);
 
  private:
@@ -57,7 +57,8 @@ class AlembicScene {
   std::string path_;            // of the object that is visited
 };
 
-/// Throws Error (kInput): the file, what it lacks ("has no curves") and the warnings, which may be the reason.
+/// Throws Error (kInput): the file, what it lacks ("has no curves") and the warnings, which may be the
+/// reason.
 [[noreturn]] void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings);
 
 /// Returns the matrix of a transform (a compound property .xform), for row vectors. `inherits`: whether the

@@ -11,7 +11,8 @@ namespace pelage {
 /// finite, curves with fewer points than they need, counts that do not fit or that change over time, widths
 /// (width or groom_width) that are missing, too few or negative, and bounds (.selfBnds) that are smaller than
 /// the points; and, as remarks, missing texture coordinates of roots and ids. Phantoms of curves that Pelage
-/// wrote are no points. Checks at most 64 times as many bytes as the file has. Throws Error (kInput) as read_alembic_curves() does.
+/// wrote are no points. Checks at most 64 times as many bytes as the file has. Throws Error (kInput) as
+/// read_alembic_curves() does.
 UsdFindings validate_alembic(const std::filesystem::path& path);
 
 }  // namespace pelage

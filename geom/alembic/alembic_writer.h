@@ -47,8 +47,8 @@ class AlembicCompoundWriter {
                  const ContentHash& key, const AlembicMetadata& metadata);
   void add_sample(bool array, const std::string& name, AlembicPod pod, uint32_t extent,
                   std::span<const std::byte> bytes, bool single, const AlembicMetadata& metadata);
-  void add_header(uint32_t bits, bool has_samples, const std::string& name,
-                  const AlembicMetadata& metadata, uint64_t word);
+  void add_header(uint32_t bits, bool has_samples, const std::string& name, const AlembicMetadata& metadata,
+                  uint64_t word);
   uint64_t finish();
 
   AlembicWriter& writer_;

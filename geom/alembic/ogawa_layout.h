@@ -9,7 +9,7 @@ namespace pelage {
 // An Ogawa file begins with "Ogawa", 0xff once the file is complete, the version in two bytes (0 and 1), and
 // the position of the first group.
 inline constexpr char kOgawaBeginning[16] = {'O', 'g', 'a', 'w', 'a', 0, 0, 1};
-inline constexpr size_t kOgawaMark = 5;  ///< length of "Ogawa"
+inline constexpr size_t kOgawaMark = 5;                                       ///< length of "Ogawa"
 inline constexpr size_t kOgawaClosed = 5, kOgawaVersion = 6, kOgawaRoot = 8;  ///< positions
 inline constexpr char kOgawaClosedByte = '\xff';
 

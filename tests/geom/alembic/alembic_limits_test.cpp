@@ -309,8 +309,7 @@ TEST_F(AlembicLimits, TheLimitOfMemoryHoldsForAllThatIsTaken) {
   for (const int basis : {0, 1, 3, 4}) {
     for (const bool one : {false, true}) {
       OgawaBytes b;
-      const std::vector<int32_t> counts =
-          one ? std::vector<int32_t>{16'001} : std::vector<int32_t>(2000, 8);
+      const std::vector<int32_t> counts = one ? std::vector<int32_t>{16'001} : std::vector<int32_t>(2000, 8);
       const size_t vertices = one ? 16'001 : 16'000;
       std::vector<int32_t> ids(counts.size());
       for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int32_t>(basis == 3 ? i : ids.size() - i);
@@ -363,10 +362,10 @@ TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
                            "smaller than the strands", "no texture coordinates", "no ids"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
   OgawaBytes wrong;
-  const std::vector<Part> sizes{
-      wrong.array("P", kFloat, 2, {raw<float>({0, 0, 1, 1})}), wrong.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
-      wrong.scalar("curveBasisAndType", kUint8, 4, {linear_form()}),
-      wrong.array("width", kFloat, 1, {raw<float>({1, 1, 1})}, "geoScope=vtx")};
+  const std::vector<Part> sizes{wrong.array("P", kFloat, 2, {raw<float>({0, 0, 1, 1})}),
+                                wrong.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
+                                wrong.scalar("curveBasisAndType", kUint8, 4, {linear_form()}),
+                                wrong.array("width", kFloat, 1, {raw<float>({1, 1, 1})}, "geoScope=vtx")};
   const std::string odd =
       findings(wrong.file({wrong.object("c", "AbcGeom_Curve_v2", {wrong.compound(".geom", sizes)})}));
   EXPECT_NE(odd.find("a.abc: </c>: its points have 2 coordinates"), std::string::npos) << odd;

@@ -142,20 +142,19 @@ Part strip(OgawaBytes& b, const std::string& name, int32_t quads, bool colors) {
     set.push_back(i);
   }
   const auto n = static_cast<size_t>(quads);
-  std::vector<Part> geometry{
-      b.array("P", kFloat, 3, {raw(points)}),
-      b.array(".faceIndices", kInt32, 1, {raw(indices)}),
-      b.array(".faceCounts", kInt32, 1, {raw(std::vector<int32_t>(n, 4))}),
-      b.array(".holes", kInt32, 1, {raw(set)}),
-      b.array(".cornerIndices", kInt32, 1, {raw(set)}),
-      b.array(".cornerSharpnesses", kFloat, 1, {raw(std::vector<float>(n, 1))}),
-      b.array(".creaseIndices", kInt32, 1, {raw(set)}),
-      b.array(".creaseLengths", kInt32, 1, {raw<int32_t>({quads})}),
-      b.array(".creaseSharpnesses", kFloat, 1, {raw<float>({1})}),
-      b.compound("uv",
-                 {b.array(".vals", kFloat, 2, {raw<float>({0, 0})}, "geoScope=fvr"),
-                  b.array(".indices", kUint32, 1, {raw(uv)})},
-                 "geoScope=fvr")};
+  std::vector<Part> geometry{b.array("P", kFloat, 3, {raw(points)}),
+                             b.array(".faceIndices", kInt32, 1, {raw(indices)}),
+                             b.array(".faceCounts", kInt32, 1, {raw(std::vector<int32_t>(n, 4))}),
+                             b.array(".holes", kInt32, 1, {raw(set)}),
+                             b.array(".cornerIndices", kInt32, 1, {raw(set)}),
+                             b.array(".cornerSharpnesses", kFloat, 1, {raw(std::vector<float>(n, 1))}),
+                             b.array(".creaseIndices", kInt32, 1, {raw(set)}),
+                             b.array(".creaseLengths", kInt32, 1, {raw<int32_t>({quads})}),
+                             b.array(".creaseSharpnesses", kFloat, 1, {raw<float>({1})}),
+                             b.compound("uv",
+                                        {b.array(".vals", kFloat, 2, {raw<float>({0, 0})}, "geoScope=fvr"),
+                                         b.array(".indices", kUint32, 1, {raw(uv)})},
+                                        "geoScope=fvr")};
   if (colors) {
     geometry.push_back(b.compound(
         ".arbGeomParams",
@@ -166,8 +165,8 @@ Part strip(OgawaBytes& b, const std::string& name, int32_t quads, bool colors) {
   }
   std::vector<Part> sets;
   for (const char* one : {"a", "b"}) {
-    sets.push_back(
-        b.object(one, "AbcGeom_FaceSet_v1", {b.compound(".faceset", {b.array(".faces", kInt32, 1, {raw(set)})})}));
+    sets.push_back(b.object(one, "AbcGeom_FaceSet_v1",
+                            {b.compound(".faceset", {b.array(".faces", kInt32, 1, {raw(set)})})}));
   }
   return b.object(name, "AbcGeom_SubD_v1", {b.compound(".geom", geometry)}, sets);
 }
@@ -175,8 +174,10 @@ Part strip(OgawaBytes& b, const std::string& name, int32_t quads, bool colors) {
 TEST(AlembicMesh, MemoryIsReservedBeforeItIsTaken) {
   const TemporaryFolder folder;
   // Sizes just above powers of two waste most when arrays double.
-  const std::vector<std::vector<std::pair<int32_t, bool>>> files{
-      {{8200, true}}, {{8200, false}}, {{8200, true}, {8200, false}}, {{8200, false}, {10, true}, {5000, false}}};
+  const std::vector<std::vector<std::pair<int32_t, bool>>> files{{{8200, true}},
+                                                                 {{8200, false}},
+                                                                 {{8200, true}, {8200, false}},
+                                                                 {{8200, false}, {10, true}, {5000, false}}};
   for (const auto& meshes : files) {
     OgawaBytes b;
     std::vector<Part> objects;
@@ -200,9 +201,10 @@ TEST(AlembicMesh, MemoryIsReservedBeforeItIsTaken) {
 TEST(AlembicMesh, ColoursOfAnotherSizeAreSkipped) {
   OgawaBytes b;
   std::vector<Part> geometry = faces(b);
-  geometry.push_back(b.compound(
-      ".arbGeomParams", {b.array("Cd", kFloat, 3, {raw(std::vector<float>(9, 1))}, "geoScope=vtx")}));
-  const UsdMeshFile file = read(b.file({b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)})}));
+  geometry.push_back(b.compound(".arbGeomParams",
+                                {b.array("Cd", kFloat, 3, {raw(std::vector<float>(9, 1))}, "geoScope=vtx")}));
+  const UsdMeshFile file =
+      read(b.file({b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)})}));
   EXPECT_TRUE(file.mesh.colors.empty());
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_NE(file.warnings[0].find("'Cd' has 3 values"), std::string::npos);
@@ -230,15 +232,18 @@ TEST(AlembicMesh, BadMeshesAreRefused) {
   std::vector<Part> geometry = faces(large);
   geometry[1] = large.array(".faceIndices", Pod(8), 1, {raw<int64_t>({0, 1, 5'000'000'000})});
   geometry[2] = large.array(".faceCounts", kInt32, 1, {raw<int32_t>({3})});
-  EXPECT_NE(refusal(large.file({large.object("m", "AbcGeom_PolyMesh_v1", {large.compound(".geom", geometry)})}))
-                .find("has the number 5000000000"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(large.file({large.object("m", "AbcGeom_PolyMesh_v1", {large.compound(".geom", geometry)})}))
+          .find("has the number 5000000000"),
+      std::string::npos);
   OgawaBytes b;
   const Part curves = b.curves("c", {3}, linear_form());
   EXPECT_NE(refusal(b.file({curves})).find("has no mesh"), std::string::npos);
-  const Part hidden = b.object("m", "AbcGeom_PolyMesh_v1",
-                               {b.compound(".geom", faces(b)), b.scalar("visible", kInt8, 1, {std::string(1, '\0')})});
-  EXPECT_NE(refusal(b.file({hidden})).find("a.abc: has no mesh; hidden objects are skipped"), std::string::npos);
+  const Part hidden =
+      b.object("m", "AbcGeom_PolyMesh_v1",
+               {b.compound(".geom", faces(b)), b.scalar("visible", kInt8, 1, {std::string(1, '\0')})});
+  EXPECT_NE(refusal(b.file({hidden})).find("a.abc: has no mesh; hidden objects are skipped"),
+            std::string::npos);
 }
 
 TEST(AlembicMesh, TooManyFacesAreRefusedWithTheFile) {
