@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/alembic/alembic_curves_file.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
+#include "geom/alembic/alembic_curves_file.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 
 namespace pelage::alembic_curves_test {
