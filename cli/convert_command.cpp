@@ -19,13 +19,15 @@ int run_convert(const Options& options) {
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width, true});
   ProgressDisplay display(options.progress, [] { return false; });
   for (const std::string& warning : file.warnings) display.warn(warning);
-  warn_of_losses(options.output, file.strands, display);
   // Widths that neither the file nor the user states stay unstated.
   const bool has_widths = file.assumed_width == 0;
   if (options.host != AlembicHost::kAny) {
-    const std::string group = std::filesystem::path(options.output).stem().string();
-    write_alembic_strands(options.output, file.strands, {has_widths, group, options.host});
+    const AlembicCurvesFacts facts = alembic_facts(options.output, has_widths, options.host);
+    for (const std::string& name : lost_alembic_attributes(file.strands, facts))
+      display.warn(options.output + ": this .abc file cannot hold the attribute " + name);
+    write_alembic_strands(options.output, file.strands, facts);
   } else {
+    warn_of_losses(options.output, file.strands, display);
     write_strands(options.output, file.strands, has_widths);
   }
   std::cout << options.output << ": " << file.strands.strand_count() << " strands";

@@ -13,14 +13,25 @@
 namespace pelage {
 namespace {
 
+/// Whether a file could be read, but has no `what`. The error may name reasons after a semicolon.
+bool is_lack(const Error& error, std::string_view what) {
+  const std::string& message = error.problems().front().message;
+  return message == what || message.starts_with(std::string(what) + ";");
+}
+
 /// A file of USD or Alembic may have curves, meshes or both.
 std::string describe_scene_file(const Options& options) {
   try {
     return describe_strands(read_strands(options.input, {options.basis, options.default_width}));
-  } catch (const Error& error) {
+  } catch (const Error& without_curves) {
     // Other errors would come again, or hide behind those of the meshes.
-    if (!std::string_view(error.what()).ends_with(": has no curves")) throw;
-    return describe_mesh(read_mesh_file(options.input), options.input);
+    if (!is_lack(without_curves, "has no curves")) throw;
+    try {
+      return describe_mesh(read_mesh_file(options.input), options.input);
+    } catch (const Error& without_mesh) {
+      if (is_lack(without_mesh, "has no mesh")) throw without_curves;
+      throw;
+    }
   }
 }
 

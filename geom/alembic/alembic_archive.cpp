@@ -14,6 +14,9 @@ namespace {
 constexpr uint64_t kLayoutChild = 0, kTopChild = 2, kMetadataChild = 3, kIndexedChild = 5;
 constexpr size_t kSampleKey = 16, kHeaderHashes = 32;
 constexpr uint32_t kInlineMetadata = 255;
+constexpr size_t kMaxNameBytes = size_t(1) << 16;
+// Readers parse each compound a few times.
+constexpr uint64_t kMaxHeaderPasses = 16;
 
 /// Reads headers from a block of data.
 class AlembicHeaderReader {
@@ -31,6 +34,15 @@ class AlembicHeaderReader {
   std::string_view text(size_t size) {
     const std::span<const std::byte> taken = take(size);
     return {reinterpret_cast<const char*>(taken.data()), size};
+  }
+  /// The name of an object or a property.
+  std::string_view name(size_t size) {
+    if (size == 0) fail("a name is empty");
+    if (size > kMaxNameBytes) fail(fmt::format("a name has {} bytes; {} are allowed", size, kMaxNameBytes));
+    const std::string_view taken = text(size);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (std::any_of(taken.begin(), taken.end(), is_control)) fail("a name has a control character");
+    return taken;
   }
   [[noreturn]] void fail(const std::string& why) const {
     file_.fail(fmt::format("{}: {}", what_, why), bytes_);
@@ -113,17 +125,23 @@ void AlembicArchive::read_indexed_metadata(std::span<const std::byte> bytes) {
   while (!in.at_end() && metadata_.size() < kInlineMetadata) metadata_.push_back(in.text(in.number(1)));
 }
 
+void AlembicArchive::count_headers(std::span<const std::byte> headers) const {
+  const uint64_t before = header_bytes_.fetch_add(headers.size(), std::memory_order_relaxed);
+  if (before + headers.size() > kMaxHeaderPasses * file_.size())
+    file_.fail("objects or properties share their headers", headers);
+}
+
 std::vector<AlembicObject> AlembicArchive::children(const AlembicObject& object) const {
   std::vector<AlembicObject> children;
   const uint64_t last = object.group.count - 1;
   if (object.group.count == 0 || file_.is_group(object.group, last)) return children;
   const std::span<const std::byte> bytes = file_.data(object.group, last);
   if (bytes.size() <= kHeaderHashes) return children;
+  count_headers(bytes);
   AlembicHeaderReader in(file_, bytes.first(bytes.size() - kHeaderHashes), "headers of objects");
   while (!in.at_end()) {
     AlembicObject child;
-    child.name = in.text(in.number(4));
-    if (child.name.empty()) in.fail("an object has no name");
+    child.name = in.name(in.number(4));
     const uint32_t index = in.number(1);
     if (index == kInlineMetadata) {
       child.metadata = in.text(in.number(4));
@@ -150,7 +168,9 @@ AlembicCompound AlembicArchive::compound(const AlembicProperty& property) const 
 AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
   AlembicCompound compound;
   if (group.count == 0 || file_.is_group(group, group.count - 1)) return compound;
-  AlembicHeaderReader in(file_, file_.data(group, group.count - 1), "headers of properties");
+  const std::span<const std::byte> bytes_of_headers = file_.data(group, group.count - 1);
+  count_headers(bytes_of_headers);
+  AlembicHeaderReader in(file_, bytes_of_headers, "headers of properties");
   while (!in.at_end()) {
     AlembicProperty property;
     const PropertyBits info{in.number(4)};
@@ -165,8 +185,7 @@ AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
       property.stored = stored_samples(info, in);
       if (info.has_time()) in.number(bytes);
     }
-    property.name = in.text(in.number(bytes));
-    if (property.name.empty()) in.fail("a property has no name");
+    property.name = in.name(in.number(bytes));
     if (info.metadata() == kInlineMetadata) {
       property.metadata = in.text(in.number(bytes));
     } else if (info.metadata() < metadata_.size()) {

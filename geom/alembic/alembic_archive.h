@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -58,7 +59,10 @@ class AlembicCompound {
 std::string_view alembic_metadata(std::string_view metadata, std::string_view key);
 
 /// The objects and properties of an Alembic file. Members throw Error (kInput) with the position in bytes
-/// where the file is malformed. Thread safety: const members may be called from any thread.
+/// where the file is malformed, or has names of more than 64 KiB or with control characters; also when they
+/// have read 16 times as many bytes of headers as the file has, since only objects and properties that share
+/// their headers need so many, which no library writes. Thread safety: const members may be called from any
+/// thread.
 class AlembicArchive {
  public:
   explicit AlembicArchive(const std::filesystem::path& path);
@@ -73,11 +77,13 @@ class AlembicArchive {
 
  private:
   AlembicCompound compound_of(const OgawaGroup& group) const;
+  void count_headers(std::span<const std::byte> headers) const;
   void read_indexed_metadata(std::span<const std::byte> bytes);
 
   OgawaFile file_;
   AlembicObject top_;
   std::vector<std::string_view> metadata_;  // which headers name by index
+  mutable std::atomic<uint64_t> header_bytes_ = 0;
 };
 
 }  // namespace pelage

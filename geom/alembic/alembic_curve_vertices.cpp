@@ -6,10 +6,6 @@
 namespace pelage {
 namespace {
 
-// Types and bases of curveBasisAndType.
-constexpr uint8_t kCubicType = 0, kLinearType = 1;
-constexpr uint8_t kNoBasisCode = 0, kBezierCode = 1, kBSplineCode = 2, kCatmullRomCode = 3;
-
 /// x, y, z and the radius: a sum of two points of strands.
 struct WeightedPoint {
   float v[4];
@@ -20,10 +16,10 @@ WeightedPoint weighted(const float* a, float s, const float* b, float t) {
   return sum;
 }
 
-uint8_t basis_code(CurveBasis basis) {
-  if (basis == CurveBasis::kLinear) return kNoBasisCode;
-  if (basis == CurveBasis::kCatmullRom) return kCatmullRomCode;
-  return basis == CurveBasis::kBezier ? kBezierCode : kBSplineCode;
+AlembicBasis alembic_basis(CurveBasis basis) {
+  if (basis == CurveBasis::kLinear) return AlembicBasis::kNone;
+  if (basis == CurveBasis::kCatmullRom) return AlembicBasis::kCatmullRom;
+  return basis == CurveBasis::kBezier ? AlembicBasis::kBezier : AlembicBasis::kBSpline;
 }
 
 }  // namespace
@@ -31,8 +27,8 @@ uint8_t basis_code(CurveBasis basis) {
 AlembicCurveVertices::AlembicCurveVertices(const Strands& strands, AlembicHost host) : strands_(strands) {
   const CurveBasis basis = strands.basis();
   const bool unreal = host == AlembicHost::kUnreal, pinned = basis == CurveBasis::kPinnedBSpline;
-  type_ = unreal || basis == CurveBasis::kLinear ? kLinearType : kCubicType;
-  basis_ = unreal ? kNoBasisCode : basis_code(basis);
+  type_ = unreal || basis == CurveBasis::kLinear ? AlembicCurveType::kLinear : AlembicCurveType::kCubic;
+  basis_ = unreal ? AlembicBasis::kNone : alembic_basis(basis);
   phantom_ends_ = !unreal && (pinned || basis == CurveBasis::kCatmullRom);
   knots_ = unreal && (pinned || basis == CurveBasis::kBSpline);
   inner_ = unreal && basis == CurveBasis::kBSpline;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geom/alembic/alembic_curve_form.h"
 #include "geom/alembic/alembic_curves_writer.h"
 
 namespace pelage {
@@ -21,8 +22,8 @@ class AlembicCurveVertices {
   AlembicCurveVertices(const Strands& strands, AlembicHost host);
 
   /// The bytes of curveBasisAndType: type, whether the curves are periodic (never), and basis.
-  uint8_t type() const { return type_; }
-  uint8_t basis() const { return basis_; }
+  uint8_t type() const { return static_cast<uint8_t>(type_); }
+  uint8_t basis() const { return static_cast<uint8_t>(basis_); }
   /// Whether each curve begins and ends with a phantom vertex.
   bool phantom_ends() const { return phantom_ends_; }
   size_t count() const { return count_; }
@@ -34,7 +35,8 @@ class AlembicCurveVertices {
   AlembicCurveVertex point(const float* p, size_t index) const;
 
   const Strands& strands_;
-  uint8_t type_ = 0, basis_ = 0;
+  AlembicCurveType type_ = AlembicCurveType::kCubic;
+  AlembicBasis basis_ = AlembicBasis::kNone;
   bool phantom_ends_ = false;
   bool knots_ = false;  // vertices are the points of the curve that belong to the points of the strand
   bool inner_ = false;  // the first and last points have no vertices

@@ -15,9 +15,9 @@
 namespace pelage {
 namespace {
 
-// Bytes of memory per number while curves are read: numbers are in memory twice, and points that grow or
-// are sorted once more; resampled curves have six points per vertex.
-constexpr int64_t kBytesPerNumber = 12, kBytesPerResampled = 64;
+// Bytes of memory per curve while counts and ids are read: as the file's integers, and as ours.
+constexpr int64_t kBytesPerCount = sizeof(int64_t) + sizeof(uint32_t);
+constexpr int64_t kBytesPerId = sizeof(int64_t) + sizeof(uint64_t);
 constexpr size_t kMaxCurveParams = 32;
 
 /// Removes the first and last element of each curve.
@@ -41,34 +41,37 @@ class AlembicCurvesReader {
       : options_(options), place_{path.string(), 0, 0}, warnings_(warnings) {}
 
   void add(const AlembicNode& node) {
-    if (node.schema.starts_with("AbcGeom_NuPatch") || node.schema.starts_with("AbcGeom_Points"))
-      warnings_.add("surfaces of NURBS and points are skipped", place_);
-    if (!node.schema.starts_with("AbcGeom_Curve_")) return;
+    node.note_unreadable(warnings_);
+    if (!node.is_curves()) return;
     UsdCurveBatch batch;
+    const AlembicProperty *knots = node.geometry.find(".knots"), *counts = node.geometry.find("nVertices");
+    if (knots && counts) {
+      charge(static_cast<int64_t>(alembic_count(node.archive, *knots) * sizeof(float) +
+                                  alembic_count(node.archive, *counts) * sizeof(int64_t)));
+    }
     const std::optional<AlembicCurveForm> form = alembic_curve_form(node, warnings_);
     if (!form) return;
     batch.form = form->form;
     batch.to_world = node.to_world;
-    if (!add_vertices(node, batch)) return;
+    if (!add_vertices(node, *form, batch)) return;
     add_widths(node, batch);
     const bool guide = add_params(node, batch);
     if (form->phantom_ends) drop_phantoms(batch);
     (guide ? guides_ : batches_).push_back(std::move(batch));
   }
 
-  UsdCurvesFile finish() {
+  UsdCurvesFile finish(const AlembicScene& scene) {
     if (batches_.empty()) batches_.swap(guides_);
     if (!guides_.empty()) warnings_.add("guides (groom_guide) are skipped", place_);
     guides_.clear();
-    if (batches_.empty()) throw Error(ErrorKind::kInput, place_, "has no curves");
-    if (batches_.size() > 1) charge(joined_attribute_bytes(batches_));
+    if (batches_.empty()) fail_without(scene, "has no curves", warnings_);
     UsdCurvesFile file;
     const auto widthed = std::count_if(batches_.begin(), batches_.end(),
                                        [](const UsdCurveBatch& b) { return !b.widths.values.empty(); });
     if (widthed > 0 && widthed < static_cast<ptrdiff_t>(batches_.size()))
       warnings_.add("some curves have no widths; they get the default", place_);
     file.has_widths = widthed > 0;
-    file.strands = join_usd_curves(std::move(batches_));
+    file.strands = join_usd_curves(std::move(batches_), [&](int64_t bytes) { charge(bytes); });
     file.warnings = warnings_.lines();
     return file;
   }
@@ -83,7 +86,7 @@ class AlembicCurvesReader {
                             memory_text(options_.max_bytes)));
   }
 
-  bool add_vertices(const AlembicNode& node, UsdCurveBatch& batch) {
+  bool add_vertices(const AlembicNode& node, const AlembicCurveForm& form, UsdCurveBatch& batch) {
     const AlembicProperty *counts = node.geometry.find("nVertices"), *points = node.geometry.find("P");
     if (!counts || !points || counts->stored == 0 || points->stored == 0) {
       warnings_.add("curves without points are skipped", place_);
@@ -96,9 +99,8 @@ class AlembicCurvesReader {
     }
     if (points->extent != 3) node.fail(fmt::format("its points have {} coordinates", points->extent));
     const size_t vertices = alembic_count(node.archive, *points) / 3;
-    const int64_t per_number = batch.form.native() ? kBytesPerNumber : kBytesPerResampled;
-    charge(static_cast<int64_t>(3 * vertices) * per_number +
-           static_cast<int64_t>(alembic_count(node.archive, *counts)) * kBytesPerNumber);
+    charge(static_cast<int64_t>(3 * vertices * sizeof(float)) +
+           static_cast<int64_t>(alembic_count(node.archive, *counts)) * kBytesPerCount);
     size_t sum = 0;
     const std::vector<int64_t> stated = alembic_integers(node.archive, *counts);
     batch.counts.reserve(stated.size());
@@ -113,20 +115,21 @@ class AlembicCurvesReader {
       node.fail(fmt::format("nVertices add up to {}, but there are {} points", sum, vertices));
     batch.points = alembic_floats(node.archive, *points);
     sizes_ = UsdPrimvarCounts{batch.counts.size(), 0, vertices, 0};
-    for (const uint32_t n : batch.counts) sizes_.varying += batch.form.varying(n);
+    for (const uint32_t n : batch.counts) sizes_.varying += form.varying(n);
     sizes_.face_varying = sizes_.varying;  // the same for curves
     return !batch.counts.empty();
   }
 
-  std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property) {
+  std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property,
+                                  bool needed = false) {
     if (!property) return {};
-    charge(static_cast<int64_t>(alembic_param_count(node.archive, *property)) * kBytesPerNumber);
-    return alembic_param(node, *property, sizes_, warnings_);
+    charge(static_cast<int64_t>(alembic_param_bytes(node.archive, *property)));
+    return alembic_param(node, *property, sizes_, warnings_, needed);
   }
 
   void add_widths(const AlembicNode& node, UsdCurveBatch& batch) {
-    set_widths(param(node, node.geometry.find("width")), batch);
-    if (std::optional<UsdPrimvar> uv = param(node, node.geometry.find("uv")); uv && uv->components == 2)
+    set_widths(param(node, node.geometry.find("width"), true), batch);
+    if (std::optional<UsdPrimvar> uv = param(node, node.geometry.find("uv"), true); uv && uv->components == 2)
       batch.root_uv = std::move(*uv);
   }
   static void set_widths(std::optional<UsdPrimvar> widths, UsdCurveBatch& batch) {
@@ -144,10 +147,10 @@ class AlembicCurvesReader {
     bool guide = false;
     for (const AlembicProperty& property : params.properties) {
       if (property.name == "groom_guide") {
-        guide = is_guide(node, property);
-      } else if (property.name == "groom_id" || property.name == "ids" || property.name == "id") {
+        guide = is_guide(node, property, batch);
+      } else if (is_ids(property)) {
         add_ids(node, property, batch);
-      } else if (!property.name.starts_with("groom_version_") && !property.name.starts_with("groom_group_")) {
+      } else if (property.name != "groom_version_major" && property.name != "groom_version_minor") {
         add_param(node, property, batch);
       }
     }
@@ -159,7 +162,8 @@ class AlembicCurvesReader {
       warnings_.add("parameters beyond the first 32 are skipped", place_);
       return;
     }
-    std::optional<UsdPrimvar> values = param(node, &property);
+    const bool needed = property.name == "groom_width" || property.name == "groom_root_uv";
+    std::optional<UsdPrimvar> values = param(node, &property, needed);
     if (!values) return;
     if (property.name == "groom_width") return set_widths(std::move(values), batch);
     if (property.name == "groom_root_uv" && values->components == 2) {
@@ -170,15 +174,23 @@ class AlembicCurvesReader {
     batch.attributes.emplace_back(color ? "color" : std::string(property.name), std::move(*values));
   }
 
-  /// Curves are guides if all of them are: those of a constant, and of equal values.
-  bool is_guide(const AlembicNode& node, const AlembicProperty& property) {
-    const std::optional<UsdPrimvar> guides = param(node, &property);
+  /// Curves are guides if all of them are: those of a constant, and of equal values. If some are, all are
+  /// strands with an attribute.
+  bool is_guide(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
+    std::optional<UsdPrimvar> guides = param(node, &property);
     if (!guides) return false;
     const auto marked =
         std::count_if(guides->values.begin(), guides->values.end(), [](float value) { return value != 0; });
-    if (marked > 0 && marked < static_cast<ptrdiff_t>(guides->values.size()))
-      warnings_.add("guides among other curves (groom_guide) are read as strands", place_);
-    return marked == static_cast<ptrdiff_t>(guides->values.size());
+    if (marked == 0 || marked == static_cast<ptrdiff_t>(guides->values.size())) return marked > 0;
+    warnings_.add("guides among other curves (groom_guide) are read as strands with the attribute guide",
+                  place_);
+    batch.attributes.emplace_back("guide", std::move(*guides));
+    return false;
+  }
+
+  static bool is_ids(const AlembicProperty& property) {
+    return property.name == "groom_id" ||
+           ((property.name == "ids" || property.name == "id") && alembic_is_integer(property));
   }
 
   void add_ids(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
@@ -188,7 +200,7 @@ class AlembicCurvesReader {
       warnings_.add("ids that are not one per curve are skipped", place_);
       return;
     }
-    charge(static_cast<int64_t>(count) * kBytesPerNumber * 2);
+    charge(static_cast<int64_t>(count) * kBytesPerId);
     const std::vector<int64_t> ids = alembic_integers(node.archive, property);
     batch.ids.assign(ids.begin(), ids.end());
   }
@@ -219,7 +231,7 @@ UsdCurvesFile read_alembic_curves(const std::filesystem::path& path, const UsdCu
   AlembicScene scene(path, warnings);
   AlembicCurvesReader reader(options, path, warnings);
   scene.visit([&](const AlembicNode& node) { reader.add(node); });
-  return reader.finish();
+  return reader.finish(scene);
 }
 
 }  // namespace pelage

@@ -2,6 +2,7 @@
 #include "geom/alembic/alembic_curves_writer.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/version.h"
 #include "geom/alembic/alembic_curve_vertices.h"
@@ -28,9 +29,35 @@ Scope scope_of(AttributeClass frequency) {
   return frequency == AttributeClass::kPerStrand ? Scope::kUniform : Scope::kVertex;
 }
 
-/// Names of parameters that add_alembic_curves() writes itself.
-bool is_own_param(const std::string& name) {
-  return name == "ids" || name == "id" || name == "width" || name.starts_with("groom_");
+bool has_small_ids(const Strands& strands) {
+  const std::vector<uint64_t>& ids = strands.arrays().ids;
+  return std::all_of(ids.begin(), ids.end(), [](uint64_t id) { return id <= INT32_MAX; });
+}
+
+/// The name of an attribute that the groom schema has under another one; empty for others.
+std::string schema_name(const StrandAttribute& attribute) {
+  if (attribute.name == "color" && attribute.components == 3) return "groom_color";
+  const bool per_strand = attribute.frequency != AttributeClass::kPerPoint;
+  return attribute.name == "guide" && attribute.components == 1 && per_strand ? "groom_guide" : "";
+}
+
+/// The names of the parameters of all attributes; empty for those that are not written.
+std::vector<std::string> param_names(const Strands& strands, const AlembicCurvesFacts& facts) {
+  std::set<std::string> taken{"", "groom_version_major", "groom_version_minor"};
+  taken.insert(has_small_ids(strands) ? "groom_id" : "ids");
+  if (!facts.group.empty()) taken.insert("groom_group_name");
+  if (!strands.arrays().root_uv.empty()) taken.insert("groom_root_uv");
+  if (facts.host == AlembicHost::kUnreal && facts.widths) taken.insert("groom_width");
+  for (const StrandAttribute& attribute : strands.attributes()) taken.insert(schema_name(attribute));
+  std::vector<std::string> names;
+  for (const StrandAttribute& attribute : strands.attributes()) {
+    names.push_back(schema_name(attribute));
+    if (!names.back().empty()) continue;
+    std::string name = attribute.name;
+    std::replace(name.begin(), name.end(), '/', '_');
+    if (taken.insert(name).second) names.back() = std::move(name);
+  }
+  return names;
 }
 
 constexpr size_t kVerticesAtOnce = 4096;
@@ -90,13 +117,15 @@ class AlembicCurvesObject {
     if (!root_uv().empty())
       params.array("groom_root_uv", root_uv(), 2, param_metadata(Scope::kUniform, "float32_t", 2));
     if (unreal_ && facts_.widths) write_widths(params, "groom_width");
-    for (const StrandAttribute& attribute : strands_.attributes()) write_attribute(params, attribute);
+    const std::vector<std::string> names = param_names(strands_, facts_);
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (!names[i].empty()) write_attribute(params, names[i], strands_.attributes()[i]);
+    }
   }
 
   void write_ids(AlembicCompoundWriter& params) {
     const std::vector<uint64_t>& ids = strands_.arrays().ids;
-    const bool small = std::all_of(ids.begin(), ids.end(), [](uint64_t id) { return id <= INT32_MAX; });
-    if (small) {
+    if (has_small_ids(strands_)) {
       const std::vector<int32_t> narrow(ids.begin(), ids.end());
       params.array("groom_id", std::span<const int32_t>(narrow), 1,
                    param_metadata(Scope::kUniform, "int32_t", 1));
@@ -106,18 +135,15 @@ class AlembicCurvesObject {
     }
   }
 
-  void write_attribute(AlembicCompoundWriter& params, const StrandAttribute& attribute) {
-    if (is_own_param(attribute.name)) return;
-    if (attribute.name == "guide" && attribute.components == 1 &&
-        attribute.frequency != AttributeClass::kPerPoint) {
-      const std::vector<int16_t> guide(attribute.values.begin(), attribute.values.end());
-      return params.array("groom_guide", std::span<const int16_t>(guide), 1,
+  void write_attribute(AlembicCompoundWriter& params, const std::string& name,
+                       const StrandAttribute& attribute) {
+    if (name == "groom_guide" && !schema_name(attribute).empty()) {
+      std::vector<int16_t> guide;
+      for (const float value : attribute.values) guide.push_back(value != 0);
+      return params.array(name, std::span<const int16_t>(guide), 1,
                           param_metadata(scope_of(attribute.frequency), "int16_t", 1));
     }
-    const bool color = attribute.name == "color" && attribute.components == 3;
-    std::string name = color ? "groom_color" : attribute.name;
-    std::replace(name.begin(), name.end(), '/', '_');
-    if (name.empty()) return;
+    const bool color = name == "groom_color";
     const bool per_vertex = attribute.frequency == AttributeClass::kPerPoint || (color && unreal_);
     const auto n = static_cast<size_t>(attribute.components);
     const size_t extent = n <= 3 ? n : 1;
@@ -197,6 +223,15 @@ class AlembicCurvesObject {
 };
 
 }  // namespace
+
+std::vector<std::string> lost_alembic_attributes(const Strands& strands, const AlembicCurvesFacts& facts) {
+  const std::vector<std::string> names = param_names(strands, facts);
+  std::vector<std::string> lost;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) lost.push_back(strands.attributes()[i].name);
+  }
+  return lost;
+}
 
 void add_alembic_curves(AlembicWriter& writer, AlembicObjectWriter& parent, const std::string& name,
                         const Strands& strands, const AlembicCurvesFacts& facts) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geom/alembic/alembic_host.h"
 #include "geom/alembic/alembic_writer.h"
@@ -23,8 +24,13 @@ struct AlembicCurvesFacts {
 void add_alembic_curves(AlembicWriter& writer, AlembicObjectWriter& parent, const std::string& name,
                         const Strands& strands, const AlembicCurvesFacts& facts);
 
-/// Returns a transform object that does nothing, with the parameters that identify Unreal's groom schema:
-/// groom_version_major 1, groom_version_minor 4 and groom_tool.
+/// Returns the names of the attributes that add_alembic_curves() does not write: those whose parameters would
+/// have a name that the file has for something else, and those without a name. Of two attributes that differ
+/// only in '/' and '_', the first is written.
+std::vector<std::string> lost_alembic_attributes(const Strands& strands, const AlembicCurvesFacts& facts);
+
+/// Returns an object with the identity as its transform, with the parameters that identify Unreal's groom
+/// schema: groom_version_major 1, groom_version_minor 4 and groom_tool.
 AlembicObjectWriter alembic_groom(AlembicWriter& writer, const std::string& name);
 
 }  // namespace pelage

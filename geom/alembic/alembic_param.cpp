@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kMaxParamComponents = 16;
 
-/// The values of a parameter and its indices, which unindexed parameters have not.
+/// The values of a parameter, and the indices of an indexed one.
 struct ParamParts {
   AlembicProperty values;
   std::optional<AlembicProperty> indices;
@@ -71,7 +71,7 @@ void expand(const AlembicNode& node, const ParamParts& parts, UsdPrimvar& param)
 }  // namespace
 
 std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicProperty& property,
-                                        const UsdPrimvarCounts& counts, UsdWarnings& warnings) {
+                                        const UsdPrimvarCounts& counts, UsdWarnings& warnings, bool needed) {
   const std::optional<ParamParts> parts = param_parts(node.archive, property);
   if (!parts) return {};
   const SourcePosition place{node.archive.file().path().string(), 0, 0};
@@ -82,35 +82,43 @@ std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicPr
   UsdPrimvar param;
   param.components = parts->components;
   param.values = alembic_floats(node.archive, parts->values);
+  const auto skip = [&](const std::string& why) -> std::optional<UsdPrimvar> {
+    if (needed) node.fail(why);
+    warnings.add(visible(why) + "; it is skipped", place);
+    return {};
+  };
   if (param.values.size() % param.components != 0)
-    node.fail(fmt::format("the number of values of '{}' is no multiple of its arrayExtent", property.name));
+    return skip(fmt::format("the number of values of '{}' is no multiple of its arrayExtent", property.name));
   if (parts->indices) expand(node, *parts, param);
   const size_t count = param.count();
   if (count == 0) return {};
   const std::string_view scope = alembic_metadata(property.metadata, "geoScope");
   param.interpolation = interpolation_of_scope(scope);
   if (param_count(param.interpolation, counts) == count) return param;
-  // Alembic counts a varying value per vertex of cubic curves, too.
-  const bool stated = !scope.empty() && !(param.interpolation == "varying" && count == counts.vertex);
-  if (stated) {
-    warnings.add(fmt::format("'{}' has a size that does not fit its scope, {}", visible(property.name),
-                             param.interpolation),
-                 place);
-  }
+  // AbcGeom counts the values of these scopes per vertex, also those of cubic curves that are not periodic.
+  const bool per_vertex = count == counts.vertex && counts.varying == counts.face_varying &&
+                          (param.interpolation == "varying" || param.interpolation == "faceVarying");
   for (const char* other : {"vertex", "varying", "uniform", "constant", "faceVarying"}) {
     if (param_count(other, counts) != count) continue;
+    if (!scope.empty() && !per_vertex) {
+      warnings.add(fmt::format("'{}' has a size that does not fit its scope, {}", visible(property.name),
+                               param.interpolation),
+                   place);
+    }
     param.interpolation = other;
     return param;
   }
-  node.fail(fmt::format("'{}' has {} values; {} vertices, {} curves or faces need others", property.name,
-                        count, counts.vertex, counts.uniform));
+  return skip(fmt::format("'{}' has {} values; {} vertices, {} curves or faces need others", property.name,
+                          count, counts.vertex, counts.uniform));
 }
 
-size_t alembic_param_count(const AlembicArchive& archive, const AlembicProperty& property) {
+size_t alembic_param_bytes(const AlembicArchive& archive, const AlembicProperty& property) {
   const std::optional<ParamParts> parts = param_parts(archive, property);
   if (!parts || parts->components > kMaxParamComponents) return 0;
-  const size_t values = alembic_count(archive, parts->values);
-  return parts->indices ? values + alembic_count(archive, *parts->indices) * parts->components : values;
+  const size_t values = alembic_count(archive, parts->values) * sizeof(float);
+  if (!parts->indices) return values;
+  return values +
+         alembic_count(archive, *parts->indices) * (sizeof(int64_t) + parts->components * sizeof(float));
 }
 
 }  // namespace pelage

@@ -12,6 +12,8 @@ namespace pelage {
 namespace {
 
 constexpr int kMaxObjectDepth = 512;
+constexpr size_t kMaxOps = 255;  // as many as a scalar holds, which programs write
+constexpr size_t kMaxPathBytes = size_t(1) << 16;
 constexpr std::string_view kTransformSchema = "AbcGeom_Xform_v3";
 
 /// Operations of transforms, as the upper four bits of a byte number them, and how many numbers they have.
@@ -56,28 +58,38 @@ M44f to_float(const Imath::M44d& m) {
 /// Whether an object states that it is hidden (0), shown (1), or as its parent (-1, or nothing).
 bool is_hidden(const AlembicArchive& archive, const AlembicCompound& properties, bool parent_hidden) {
   const AlembicProperty* visible = properties.find("visible");
-  if (!visible || !alembic_is_integer(*visible)) return parent_hidden;
-  const std::vector<int64_t> stated = alembic_integers(archive, *visible);
-  return stated.empty() || stated[0] < 0 ? parent_hidden : stated[0] == 0;
+  const int64_t stated = visible ? alembic_first_integer(archive, *visible).value_or(-1) : -1;
+  return stated < 0 ? parent_hidden : stated == 0;
 }
 
 }  // namespace
+
+void AlembicNode::note_unreadable(UsdWarnings& warnings) const {
+  if (schema.starts_with("AbcGeom_NuPatch") || schema.starts_with("AbcGeom_Points"))
+    warnings.add("surfaces of NURBS and points are skipped", {archive.file().path().string(), 0, 0});
+}
 
 void AlembicNode::fail(const std::string& message) const {
   throw Error(ErrorKind::kInput, {archive.file().path().string(), 0, 0},
               visible(fmt::format("<{}>: {}", path, message)));
 }
 
+void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings) {
+  const std::string file = scene.archive().file().path().string(), prefix = visible(file + ": ");
+  for (const std::string& line : warnings.lines())
+    lacking += "; " + (line.starts_with(prefix) ? line.substr(prefix.size()) : line);
+  throw Error(ErrorKind::kInput, {file, 0, 0}, lacking);
+}
+
 Imath::M44d alembic_transform(const AlembicArchive& archive, const AlembicCompound& transform,
                               bool& inherits) {
-  inherits = true;
-  if (const AlembicProperty* stated = transform.find(".inherits"); stated && alembic_is_integer(*stated)) {
-    const std::vector<int64_t> value = alembic_integers(archive, *stated);
-    inherits = value.empty() || value[0] != 0;
-  }
+  const AlembicProperty* stated = transform.find(".inherits");
+  inherits = !stated || alembic_first_integer(archive, *stated).value_or(1) != 0;
   Imath::M44d matrix;
   const AlembicProperty *ops = transform.find(".ops"), *values = transform.find(".vals");
   if (!ops || !values) return matrix;
+  if (alembic_count(archive, *ops) > kMaxOps || alembic_count(archive, *values) > 16 * kMaxOps)
+    archive.file().fail(fmt::format("a transform has more than {} operations", kMaxOps), ops->group.position);
   const std::vector<double> numbers = alembic_doubles(archive, *values);
   size_t next = 0;
   for (const int64_t encoded : alembic_integers(archive, *ops)) {
@@ -119,6 +131,9 @@ void AlembicScene::visit_children(const AlembicObject& object, const Parent& par
     const std::string_view schema = alembic_metadata(child.metadata, "schema");
     const size_t parent_path = path_.size();
     path_.append("/").append(child.name);
+    if (path_.size() > kMaxPathBytes)
+      file.fail(fmt::format("the path of an object has more than {} bytes", kMaxPathBytes),
+                child.group.position);
     Parent inner{parent.to_world, parent.hidden, parent.depth + 1};
     const AlembicCompound properties = archive_.properties(child);
     inner.hidden = is_hidden(archive_, properties, parent.hidden);

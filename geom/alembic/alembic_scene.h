@@ -23,6 +23,12 @@ struct AlembicNode {
   M44f to_world;             ///< from the space of the object, for row vectors
   const AlembicObject& object;
 
+  bool is_curves() const { return schema.starts_with("AbcGeom_Curve_"); }
+  bool is_mesh() const {
+    return schema.starts_with("AbcGeom_PolyMesh_") || schema.starts_with("AbcGeom_SubD_");
+  }
+  /// Adds a warning if objects of this kind are never read: surfaces of NURBS, and points.
+  void note_unreadable(UsdWarnings& warnings) const;
   /// Throws Error (kInput) with the file and the path of the object.
   [[noreturn]] void fail(const std::string& message) const;
 };
@@ -36,7 +42,8 @@ class AlembicScene {
 
   const AlembicArchive& archive() const { return archive_; }
   /// Visits the visible objects that have a schema other than a transform, in the order of the file. Throws
-  /// Error (kInput) when objects contain themselves, are used twice, or are nested deeper than 512 levels.
+  /// Error (kInput) when objects contain themselves, are used twice, are nested deeper than 512 levels, or
+  /// have paths of more than 64 KiB.
   void visit(const std::function<void(const AlembicNode&)>& use);
 
  private:
@@ -49,6 +56,10 @@ class AlembicScene {
   std::set<uint64_t> visited_;  // positions of the groups of objects
   std::string path_;            // of the object that is visited
 };
+
+/// Throws Error (kInput): the file, what it lacks ("has no curves") and the warnings, which may be the
+/// reason.
+[[noreturn]] void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings);
 
 /// Returns the matrix of a transform (a compound property .xform), for row vectors. `inherits`: whether the
 /// transform of the parent applies, too. Throws Error (kInput) for malformed values.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -14,27 +15,39 @@
 namespace pelage {
 namespace {
 
-/// Some programs compute bounds in single precision.
+/// Fraction of the diagonal of a box by which it may be too small. Programs that compute bounds in single
+/// precision round coordinates by 2^-24 of their size, which may be a thousand times that of the strands.
 constexpr double kBoundsSlack = 1e-4;
+
+/// Numbers are checked as long as they have no more bytes than 64 times the file: objects and samples may
+/// share them, as libraries write equal arrays once, but checks must end.
+constexpr uint64_t kMaxCheckedFiles = 64;
+constexpr size_t kMaxFindings = 1000;
 
 class AlembicCurvesValidator {
  public:
-  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings)
-      : node_(node), warnings_(warnings), findings_(findings) {}
+  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings,
+                         uint64_t& bytes_left)
+      : node_(node), warnings_(warnings), findings_(findings), bytes_left_(bytes_left) {}
 
   void check() {
     ++findings_.curves;
+    if (findings_.problems.size() + findings_.remarks.size() > kMaxFindings) return skip_rest();
+    const uint64_t needed = first_sample_bytes();
+    if (needed > bytes_left_) return skip_rest();
+    bytes_left_ -= needed;
     const std::optional<AlembicCurveForm> form = alembic_curve_form(node_, warnings_);
     if (!form) return problem("its basis is not supported");
     const AlembicProperty *counts = node_.geometry.find("nVertices"), *points = node_.geometry.find("P");
     if (!counts || !points || counts->stored == 0 || points->stored == 0)
       return problem("it has no nVertices or no P");
-    check_counts(*counts, form->form);
+    check_counts(*counts, *form);
     check_points(*points);
-    check_widths();
-    check_bounds();
     const AlembicProperty* arbitrary = node_.geometry.find(".arbGeomParams");
     const AlembicCompound params = arbitrary ? node_.archive.compound(*arbitrary) : AlembicCompound();
+    const AlembicProperty* width = node_.geometry.find("width");
+    check_widths(width ? width : params.find("groom_width"));
+    check_bounds();
     if (!node_.geometry.find("uv") && !params.find("groom_root_uv"))
       remark("the roots have no texture coordinates (groom_root_uv or uv)");
     if (!params.find("groom_id") && !params.find("ids") && !params.find("id"))
@@ -42,19 +55,48 @@ class AlembicCurvesValidator {
   }
 
  private:
+  void skip_rest() {
+    warnings_.add("curves beyond the first ones are not checked",
+                  {node_.archive.file().path().string(), 0, 0});
+  }
+  /// Bytes of the numbers that are checked even if they are shared.
+  uint64_t first_sample_bytes() const {
+    uint64_t bytes = 0;
+    for (const AlembicProperty& property : node_.geometry.properties)
+      bytes += alembic_param_bytes(node_.archive, property);
+    const AlembicProperty* arbitrary = node_.geometry.find(".arbGeomParams");
+    const AlembicCompound params = arbitrary ? node_.archive.compound(*arbitrary) : AlembicCompound();
+    if (const AlembicProperty* width = params.find("groom_width"))
+      bytes += alembic_param_bytes(node_.archive, *width);
+    return bytes;
+  }
+  /// Whether a later sample is to be read: one whose block no earlier sample has.
+  bool is_new(const AlembicProperty& property, uint32_t sample, std::set<const std::byte*>& known) {
+    const std::span<const std::byte> bytes = node_.archive.sample(property, sample);
+    if (!known.insert(bytes.data()).second || sample == 0) return sample == 0;
+    if (bytes.size() > bytes_left_) {
+      skip_rest();
+      return false;
+    }
+    bytes_left_ -= bytes.size();
+    return true;
+  }
+
   std::string line(const std::string& text) const {
     return visible(node_.archive.file().path().string() + ": <" + node_.path + ">: " + text);
   }
   void problem(const std::string& text) { findings_.problems.push_back(line(text)); }
   void remark(const std::string& text) { findings_.remarks.push_back(line(text)); }
 
-  void check_counts(const AlembicProperty& counts, const UsdCurveForm& form) {
+  void check_counts(const AlembicProperty& counts, const AlembicCurveForm& form) {
     size_t few = 0, one = 0;
     const std::vector<int64_t> first = alembic_integers(node_.archive, counts);
     for (const int64_t n : first) {
       const auto count = static_cast<uint32_t>(std::clamp<int64_t>(n, 0, UINT32_MAX));
-      one += count == 1;
-      few += form.segments(count) == 0;
+      const uint32_t own = form.phantom_ends ? std::max(count, 2u) - 2 : count;
+      one += own == 1;
+      few += form.form.segments(own) == 0;
+      findings_.points += own;
       sizes_.vertex += count;
       sizes_.varying += form.varying(count);
       ++sizes_.uniform;
@@ -63,7 +105,9 @@ class AlembicCurvesValidator {
     findings_.strands += sizes_.uniform;
     if (one > 0) problem(fmt::format("{} strands have one point", one));
     if (few > one) problem(fmt::format("{} strands have too few points for their basis", few - one));
+    std::set<const std::byte*> known{node_.archive.sample(counts).data()};
     for (uint32_t sample = 1; sample < counts.stored; ++sample) {
+      if (!is_new(counts, sample, known)) continue;
       if (alembic_integers(node_.archive, counts, sample) == first) continue;
       counts_change_ = true;
       return problem(fmt::format("nVertices change at sample {}", sample));
@@ -71,8 +115,10 @@ class AlembicCurvesValidator {
   }
 
   void check_points(const AlembicProperty& points) {
-    findings_.points += sizes_.vertex;
+    if (points.extent != 3) return problem(fmt::format("its points have {} coordinates", points.extent));
+    std::set<const std::byte*> known;
     for (uint32_t sample = 0; sample < points.stored; ++sample) {
+      if (!is_new(points, sample, known)) continue;
       const std::vector<float> numbers = alembic_floats(node_.archive, points, sample);
       const std::string when = sample > 0 ? fmt::format(" at sample {}", sample) : "";
       if (numbers.size() != 3 * sizes_.vertex && !(sample > 0 && counts_change_)) {
@@ -89,10 +135,13 @@ class AlembicCurvesValidator {
     }
   }
 
-  void check_widths() {
-    const AlembicProperty* property = node_.geometry.find("width");
-    const std::optional<UsdPrimvar> widths =
-        property ? alembic_param(node_, *property, sizes_, warnings_) : std::nullopt;
+  void check_widths(const AlembicProperty* property) {
+    std::optional<UsdPrimvar> widths;
+    try {
+      if (property) widths = alembic_param(node_, *property, sizes_, warnings_, true);
+    } catch (const Error& error) {
+      return findings_.problems.push_back(error.what());
+    }
     if (!widths) return problem("it has no widths; programs choose their own, often 1");
     const auto bad = std::count_if(widths->values.begin(), widths->values.end(),
                                    [](float w) { return !(w >= 0) || std::isinf(w); });
@@ -118,6 +167,7 @@ class AlembicCurvesValidator {
   const AlembicNode& node_;
   UsdWarnings& warnings_;
   UsdFindings& findings_;
+  uint64_t& bytes_left_;
   UsdPrimvarCounts sizes_;
   Box3f box_;  // of the points at the earliest sample
   bool counts_change_ = false;
@@ -129,10 +179,10 @@ UsdFindings validate_alembic(const std::filesystem::path& path) {
   UsdFindings findings;
   UsdWarnings warnings;
   AlembicScene scene(path, warnings);
+  uint64_t bytes_left = kMaxCheckedFiles * scene.archive().file().size();
   scene.visit([&](const AlembicNode& node) {
-    findings.meshes +=
-        node.schema.starts_with("AbcGeom_PolyMesh_") || node.schema.starts_with("AbcGeom_SubD_");
-    if (node.schema.starts_with("AbcGeom_Curve_")) AlembicCurvesValidator(node, warnings, findings).check();
+    findings.meshes += node.is_mesh();
+    if (node.is_curves()) AlembicCurvesValidator(node, warnings, findings, bytes_left).check();
   });
   if (findings.curves == 0) findings.problems.push_back(visible(path.string()) + ": has no curves");
   for (const std::string& line : warnings.lines()) findings.remarks.push_back(line);

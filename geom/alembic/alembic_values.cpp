@@ -40,8 +40,8 @@ void convert_numbers(std::span<const std::byte> bytes, std::vector<To>& to) {
 }
 
 template <class To>
-std::vector<To> numbers_of(const AlembicArchive& archive, const AlembicProperty& property, uint32_t sample) {
-  const std::span<const std::byte> bytes = whole_elements(archive, property, sample);
+std::vector<To> numbers_of(const AlembicArchive& archive, const AlembicProperty& property,
+                           std::span<const std::byte> bytes) {
   std::vector<To> numbers;
   switch (property.pod) {
     case AlembicPod::kBool:
@@ -91,27 +91,27 @@ std::vector<To> numbers_of(const AlembicArchive& archive, const AlembicProperty&
 
 std::vector<float> alembic_floats(const AlembicArchive& archive, const AlembicProperty& property,
                                   uint32_t sample) {
-  return numbers_of<float>(archive, property, sample);
+  return numbers_of<float>(archive, property, whole_elements(archive, property, sample));
 }
 std::vector<double> alembic_doubles(const AlembicArchive& archive, const AlembicProperty& property,
                                     uint32_t sample) {
-  return numbers_of<double>(archive, property, sample);
+  return numbers_of<double>(archive, property, whole_elements(archive, property, sample));
 }
 std::vector<int64_t> alembic_integers(const AlembicArchive& archive, const AlembicProperty& property,
                                       uint32_t sample) {
-  return numbers_of<int64_t>(archive, property, sample);
+  return numbers_of<int64_t>(archive, property, whole_elements(archive, property, sample));
+}
+
+std::optional<int64_t> alembic_first_integer(const AlembicArchive& archive, const AlembicProperty& property) {
+  if (!alembic_is_integer(property)) return {};
+  const std::span<const std::byte> bytes = whole_elements(archive, property, 0);
+  if (bytes.empty()) return {};
+  return numbers_of<int64_t>(archive, property, bytes.first(alembic_pod_bytes(property.pod)))[0];
 }
 
 size_t alembic_count(const AlembicArchive& archive, const AlembicProperty& property, uint32_t sample) {
   const size_t number = alembic_pod_bytes(property.pod);
   return number == 0 ? 0 : whole_elements(archive, property, sample).size() / number;
-}
-
-std::string alembic_text(const AlembicArchive& archive, const AlembicProperty& property) {
-  if (property.pod != AlembicPod::kText) return {};
-  const std::span<const std::byte> bytes = archive.sample(property);
-  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return std::string(all.substr(0, all.find('\0')));  // each text ends with a zero
 }
 
 bool alembic_is_integer(const AlembicProperty& property) {

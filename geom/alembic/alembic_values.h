@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "geom/alembic/alembic_archive.h"
@@ -19,11 +19,12 @@ std::vector<double> alembic_doubles(const AlembicArchive& archive, const Alembic
 std::vector<int64_t> alembic_integers(const AlembicArchive& archive, const AlembicProperty& property,
                                       uint32_t sample = 0);
 
+/// Returns the first number of the earliest sample, without reading the others; empty if there is none or
+/// the numbers are not integers.
+std::optional<int64_t> alembic_first_integer(const AlembicArchive& archive, const AlembicProperty& property);
+
 /// Returns how many numbers the functions above return.
 size_t alembic_count(const AlembicArchive& archive, const AlembicProperty& property, uint32_t sample = 0);
-
-/// Returns the first text of a property; empty if it has none.
-std::string alembic_text(const AlembicArchive& archive, const AlembicProperty& property);
 
 /// Whether a property holds integers.
 bool alembic_is_integer(const AlembicProperty& property);

@@ -41,16 +41,14 @@ class AlembicCompoundWriter {
   /// Ends another compound, and adds it.
   void add(const std::string& name, const AlembicMetadata& metadata, AlembicCompoundWriter&& compound);
 
-  bool empty() const { return words_.empty(); }
-
  private:
   friend class AlembicObjectWriter;
   void add_array(const std::string& name, AlembicPod pod, uint32_t extent, bool single, uint64_t sample,
                  const ContentHash& key, const AlembicMetadata& metadata);
   void add_sample(bool array, const std::string& name, AlembicPod pod, uint32_t extent,
                   std::span<const std::byte> bytes, bool single, const AlembicMetadata& metadata);
-  void add_header(uint32_t kind_bits, bool has_samples, const std::string& name,
-                  const AlembicMetadata& metadata, uint64_t word);
+  void add_header(uint32_t bits, bool has_samples, const std::string& name, const AlembicMetadata& metadata,
+                  uint64_t word);
   uint64_t finish();
 
   AlembicWriter& writer_;

@@ -15,8 +15,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers of the file are used as they are");
 
-// "Ogawa", 0xff once the file is complete, the version in two bytes, and the position of the first group.
-constexpr size_t kOgawaHeader = 16, kOgawaClosed = 5, kOgawaVersion = 6, kOgawaRoot = 8;
 constexpr std::string_view kHdf5 = "\x89HDF";
 
 }  // namespace
@@ -34,10 +32,12 @@ OgawaFile::OgawaFile(const std::filesystem::path& path) : path_(path) {
   if (const std::string_view foreign = foreign_contents(beginning); !foreign.empty()) refuse(foreign);
   if (beginning.starts_with(kHdf5))
     refuse("is an Alembic file of the older kind, HDF5; convert it: abcconvert -toOgawa IN.abc OUT.abc");
-  if (!beginning.starts_with("Ogawa") || bytes_.size() < kOgawaHeader) refuse("is not an Alembic file");
-  if (bytes_[kOgawaClosed] != std::byte{0xff})
+  const std::string_view right(kOgawaBeginning, sizeof kOgawaBeginning);
+  if (!beginning.starts_with(right.substr(0, kOgawaMark)) || beginning.size() < right.size())
+    refuse("is not an Alembic file");
+  if (beginning[kOgawaClosed] != kOgawaClosedByte)
     refuse("is not complete: the program that wrote it did not close it");
-  if (bytes_[kOgawaVersion] != std::byte{0} || bytes_[kOgawaVersion + 1] != std::byte{1})
+  if (beginning.substr(kOgawaVersion, 2) != right.substr(kOgawaVersion, 2))
     refuse("is of an unknown version of Alembic's Ogawa format");
 }
 
@@ -45,13 +45,13 @@ OgawaGroup OgawaFile::root() const { return group_at(number_at(kOgawaRoot)); }
 
 OgawaGroup OgawaFile::group(const OgawaGroup& parent, uint64_t child) const {
   const uint64_t position = word(parent, child);
-  if (position & kData) fail("expected a group, found data", position & ~kData);
+  if (position & kOgawaData) fail("expected a group, found data", position & ~kOgawaData);
   return group_at(position);
 }
 
 std::span<const std::byte> OgawaFile::data(const OgawaGroup& parent, uint64_t child) const {
-  const uint64_t marked = word(parent, child), position = marked & ~kData;
-  if (!(marked & kData)) fail("expected data, found a group", position);
+  const uint64_t marked = word(parent, child), position = marked & ~kOgawaData;
+  if (!(marked & kOgawaData)) fail("expected data, found a group", position);
   if (position == 0) return {};
   const uint64_t count = number_at(position);
   if (count > size() - position - 8) fail(fmt::format("claims {} bytes of data", count), position);

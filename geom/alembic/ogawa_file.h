@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/mapped_file.h"
+#include "geom/alembic/ogawa_layout.h"
 
 namespace pelage {
 
@@ -29,7 +30,7 @@ class OgawaFile {
   uint64_t size() const { return bytes_.size(); }
   OgawaGroup root() const;
   /// Whether a child of a group is a group, or data.
-  bool is_group(const OgawaGroup& group, uint64_t child) const { return !(word(group, child) & kData); }
+  bool is_group(const OgawaGroup& group, uint64_t child) const { return !(word(group, child) & kOgawaData); }
   /// Return a child. Throw Error (kInput) if there is none, if it is not of this kind, or if it does not fit
   /// the file.
   OgawaGroup group(const OgawaGroup& parent, uint64_t child) const;
@@ -42,7 +43,6 @@ class OgawaFile {
   }
 
  private:
-  static constexpr uint64_t kData = uint64_t(1) << 63;
   uint64_t word(const OgawaGroup& group, uint64_t child) const;
   uint64_t number_at(uint64_t position) const;
   OgawaGroup group_at(uint64_t position) const;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/alembic/ogawa_writer.h"
 
+#include "geom/alembic/ogawa_layout.h"
+
 namespace pelage {
 namespace {
-
-constexpr uint64_t kDataWord = uint64_t(1) << 63;
-constexpr size_t kClosedByte = 5, kRootWord = 8;
 
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
@@ -15,9 +14,8 @@ std::span<const std::byte> bytes_of(const T& value) {
 }  // namespace
 
 OgawaWriter::OgawaWriter(AtomicFile& file) : file_(file) {
-  constexpr char kHeader[16] = {'O', 'g', 'a', 'w', 'a', 0, 0, 1};  // version 1, not yet complete
-  file_.write(std::as_bytes(std::span(kHeader)));
-  end_ = sizeof kHeader;
+  file_.write(std::as_bytes(std::span(kOgawaBeginning)));
+  end_ = sizeof kOgawaBeginning;
 }
 
 uint64_t OgawaWriter::data(std::span<const std::byte> bytes, std::span<const std::byte> more) {
@@ -29,14 +27,14 @@ uint64_t OgawaWriter::data(std::span<const std::byte> bytes, std::span<const std
 
 uint64_t OgawaWriter::begin(uint64_t size) {
   const uint64_t position = end_;
-  if (size == 0) return kDataWord;  // all empty blocks are at 0
+  if (size == 0) return kOgawaData;  // all empty blocks are at 0
   file_.write(bytes_of(size));
   end_ += sizeof size + size;
-  return position | kDataWord;
+  return position | kOgawaData;
 }
 
 void OgawaWriter::replace(uint64_t block, uint64_t offset, std::span<const std::byte> bytes) {
-  file_.write_at((block & ~kDataWord) + sizeof(uint64_t) + offset, bytes);
+  file_.write_at((block & ~kOgawaData) + sizeof(uint64_t) + offset, bytes);
 }
 
 uint64_t OgawaWriter::group(std::span<const uint64_t> children) {
@@ -49,9 +47,8 @@ uint64_t OgawaWriter::group(std::span<const uint64_t> children) {
 }
 
 void OgawaWriter::finish(uint64_t root) {
-  constexpr char kClosed = '\xff';
-  file_.write_at(kRootWord, bytes_of(root));
-  file_.write_at(kClosedByte, bytes_of(kClosed));
+  file_.write_at(kOgawaRoot, bytes_of(root));
+  file_.write_at(kOgawaClosed, bytes_of(kOgawaClosedByte));
 }
 
 }  // namespace pelage

@@ -27,10 +27,11 @@ std::unique_ptr<RawStrands> open_alembic(const std::filesystem::path& path,
 }
 
 void write_alembic(const std::filesystem::path& path, const Strands& strands, bool widths) {
-  AlembicCurvesFacts facts;
-  facts.widths = widths;
-  facts.group = path.stem().string();
-  write_alembic_strands(path, strands, facts);
+  write_alembic_strands(path, strands, alembic_facts(path, widths));
+}
+
+AlembicCurvesFacts alembic_facts(const std::filesystem::path& path, bool widths, AlembicHost host) {
+  return {widths, path.stem().string(), host};
 }
 
 void write_alembic_strands(const std::filesystem::path& path, const Strands& strands,

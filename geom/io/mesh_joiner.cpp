@@ -12,8 +12,6 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMaxJoinedCorners = size_t(1) << 31;
-
 uint16_t index_of_name(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto index = static_cast<size_t>(found - names.begin());
@@ -41,7 +39,7 @@ std::string MeshPart::problem() const {
   }
   for (const uint32_t vertex : face_vertices) {
     if (vertex >= points.size())
-      return fmt::format("the index {} is not one of {} points", static_cast<int32_t>(vertex), points.size());
+      return fmt::format("the index {} is not one of {} points", vertex, points.size());
   }
   size_t corner = 0;
   for (size_t face = 0; face < face_sizes.size(); ++face) {
@@ -67,8 +65,10 @@ std::string MeshPart::problem() const {
 
 void MeshJoiner::add(const MeshPart& part) {
   if (mesh_.positions.size() + part.points.size() >= UINT32_MAX ||
-      mesh_.face_vertices.size() + part.face_vertices.size() > kMaxJoinedCorners)
-    throw Error(ErrorKind::kInput, "the meshes have too many points or faces");
+      mesh_.face_vertices.size() + part.face_vertices.size() > max_corners_) {
+    throw Error(ErrorKind::kInput, {path_.string(), 0, 0},
+                fmt::format("the meshes up to '{}' have too many points or faces", part.name));
+  }
   first_vertex_ = static_cast<uint32_t>(mesh_.positions.size());
   first_face_ = static_cast<uint32_t>(mesh_.face_count());
   first_corner_ = static_cast<uint32_t>(mesh_.face_vertices.size());

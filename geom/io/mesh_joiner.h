@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geom/mesh.h"
@@ -33,9 +35,13 @@ struct MeshPart {
 /// Joins the meshes of a scene file to one cage, in which each is an object and a group.
 class MeshJoiner {
  public:
-  explicit MeshJoiner(ControlMesh& mesh) : mesh_(mesh) {}
+  static constexpr size_t kMaxCorners = size_t(1) << 31;
+  /// `path`: the file, for errors.
+  MeshJoiner(ControlMesh& mesh, std::filesystem::path path, size_t max_corners = kMaxCorners)
+      : mesh_(mesh), path_(std::move(path)), max_corners_(max_corners) {}
 
-  /// Adds a mesh without a problem(). Throws Error (kInput) if the cage becomes too large.
+  /// Adds a mesh without a problem(). Throws Error (kInput) with the file and the mesh if the cage gets more
+  /// than `max_corners` corners of faces, or 2^32 - 1 points.
   void add(const MeshPart& part);
   /// Makes faces of the mesh that was added last a group of this name. The faces must exist.
   void add_group(const std::string& name, const std::vector<uint32_t>& faces);
@@ -49,6 +55,8 @@ class MeshJoiner {
   void reverse_faces();
 
   ControlMesh& mesh_;
+  const std::filesystem::path path_;
+  const size_t max_corners_;
   uint32_t first_vertex_ = 0, first_face_ = 0, first_corner_ = 0;  // of the mesh that was added last
 };
 

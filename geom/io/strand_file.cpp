@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "geom/alembic/alembic_strands.h"
 #include "geom/io/strand_formats.h"
 #include "geom/io/strand_repair.h"
 
@@ -113,6 +114,10 @@ std::string what_is_lost(const std::filesystem::path& path, const Strands& stran
     if (attribute.name != kMovable) lost.push_back("the attribute " + attribute.name);
     if (attribute.name == kMovable && !is_usual(attribute, strands))
       lost.push_back("which points are fixed, other than the roots");
+  }
+  if (format.write == write_alembic) {
+    for (const std::string& name : lost_alembic_attributes(strands, alembic_facts(path, true)))
+      lost.push_back("the attribute " + name);
   }
   std::string text;
   for (const std::string& one : lost) text += (text.empty() ? "" : ", ") + one;

@@ -42,6 +42,13 @@ void value_at(const UsdPrimvar& primvar, const CurvePlace& place, const UsdCurve
   }
 }
 
+size_t batch_bytes(const UsdCurveBatch& batch) {
+  size_t numbers = batch.counts.size() + batch.points.size() + batch.widths.values.size() +
+                   batch.root_uv.values.size() + 2 * batch.ids.size();
+  for (const auto& [name, primvar] : batch.attributes) numbers += primvar.values.size();
+  return numbers * sizeof(float);
+}
+
 class CurveJoiner {
  public:
   explicit CurveJoiner(std::vector<UsdCurveBatch> batches) : batches_(std::move(batches)) {
@@ -54,6 +61,25 @@ class CurveJoiner {
     }
     arrays_.basis = resample_ ? CurveBasis::kCatmullRom : common;
     arrays_.first_point.push_back(0);
+  }
+
+  /// The max memory that join() takes beside the batches: the result, and either the points of one curve or,
+  /// after the batches are freed, what sorting copies.
+  int64_t bytes() const {
+    const JoinedSize size = joined_size();
+    const size_t points = 4 * size.points * sizeof(float),
+                 strands = size.strands * (sizeof(uint32_t) + 2 * sizeof(uint64_t) + sizeof(V2f));
+    size_t attributes = 0, largest = 0, batches = 0;
+    for (const StrandAttribute& attribute : arrays_.attributes) {
+      const size_t values = size.numbers(attribute) * sizeof(float);
+      attributes += values;
+      largest = std::max(largest, values);
+    }
+    for (const UsdCurveBatch& batch : batches_) batches += batch_bytes(batch);
+    const size_t one_curve = 2 * size.longest * sizeof(UsdCurvePoint);  // a vector that grew
+    const size_t sorted = points + largest + 2 * strands;
+    return static_cast<int64_t>(points + strands + attributes +
+                                std::max(one_curve, sorted > batches ? sorted - batches : 0));
   }
 
   StrandArrays join() {
@@ -88,22 +114,38 @@ class CurveJoiner {
     }
   }
 
-  void reserve() {
-    size_t points = 0, strands = 1;
-    for (const UsdCurveBatch& batch : batches_) {
-      for (const uint32_t n : batch.counts) points += batch.form.points(n, resample_);
-      strands += batch.counts.size();
-    }
-    arrays_.points.reserve(4 * points);
-    arrays_.first_point.reserve(strands);
-    arrays_.ids.reserve(strands - 1);
-    if (has_uv_) arrays_.root_uv.reserve(strands - 1);
-    for (StrandAttribute& attribute : arrays_.attributes) {
+  /// How many points and strands the result has.
+  struct JoinedSize {
+    size_t points = 0, strands = 0, longest = 0;
+    size_t numbers(const StrandAttribute& attribute) const {
       const size_t count = attribute.frequency == AttributeClass::kPerPoint    ? points
-                           : attribute.frequency == AttributeClass::kPerStrand ? strands - 1
+                           : attribute.frequency == AttributeClass::kPerStrand ? strands
                                                                                : 1;
-      attribute.values.reserve(count * static_cast<size_t>(attribute.components));
+      return count * static_cast<size_t>(attribute.components);
     }
+  };
+  JoinedSize joined_size() const {
+    JoinedSize size;
+    for (const UsdCurveBatch& batch : batches_) {
+      for (const uint32_t n : batch.counts) {
+        const uint32_t points = batch.form.points(n, resample_);
+        size.points += points;
+        size.longest = std::max<size_t>(size.longest, points);
+      }
+      size.strands += batch.counts.size();
+    }
+    return size;
+  }
+
+  void reserve() {
+    const JoinedSize size = joined_size();
+    arrays_.points.reserve(4 * size.points);
+    arrays_.first_point.reserve(size.strands + 1);
+    arrays_.ids.reserve(size.strands);
+    if (has_uv_) arrays_.root_uv.reserve(size.strands);
+    const auto with_ids = [](const UsdCurveBatch& batch) { return !batch.ids.empty(); };
+    if (std::any_of(batches_.begin(), batches_.end(), with_ids)) ids_.reserve(size.strands);
+    for (StrandAttribute& attribute : arrays_.attributes) attribute.values.reserve(size.numbers(attribute));
   }
 
   void add(const UsdCurveBatch& batch) {
@@ -120,6 +162,7 @@ class CurveJoiner {
         add_plain_attributes(sources, place, count);
       } else {
         points.clear();
+        points.reserve(count);
         for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
         add_points(batch, place, points);
         add_attributes(sources, place, points);
@@ -292,8 +335,11 @@ class CurveJoiner {
 
 }  // namespace
 
-StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches) {
-  return CurveJoiner(std::move(batches)).join();
+StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches,
+                             const std::function<void(int64_t bytes)>& charge) {
+  CurveJoiner joiner(std::move(batches));
+  if (charge) charge(joiner.bytes());
+  return joiner.join();
 }
 
 int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,10 @@ struct UsdCurveBatch {
 /// Joins batches to one: curves with different bases become Catmull-Rom curves with points at sixths of their
 /// segments, curves with too few vertices get none. An attribute that only some batches have is 0 in the
 /// others. If all curves have different ids, sorts them by their ids. Ids of the result are indices. Frees
-/// each batch after its use.
-StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches);
+/// each batch after its use. `charge`: called with the max memory in bytes that joining needs beside the
+/// batches, before it is taken; may throw.
+StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches,
+                             const std::function<void(int64_t bytes)>& charge = {});
 
 /// Returns the memory of the attributes of all joined curves, of which each batch may have others.
 int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches);

@@ -15,7 +15,8 @@ namespace {
 
 class UsdMeshReader {
  public:
-  UsdMeshReader(ControlMesh& mesh, UsdWarnings& warnings) : mesh_(mesh), joiner_(mesh), warnings_(warnings) {}
+  UsdMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
+      : mesh_(mesh), joiner_(mesh, path), warnings_(warnings) {}
 
   void add(const UsdPrim& prim) {
     if (prim.type == "GeomSubset") return add_subset(prim);
@@ -159,7 +160,7 @@ constexpr size_t kMeshMemoryPerText = 6;
 UsdMeshFile read_meshes(UsdStage& stage, const std::filesystem::path& path, const UsdMeshReserve& reserve,
                         UsdWarnings& warnings) {
   UsdMeshFile file;
-  UsdMeshReader reader(file.mesh, warnings);
+  UsdMeshReader reader(file.mesh, path, warnings);
   stage.visit([&](const UsdPrim& prim) {
     if (reserve) {
       size_t text = 0;

@@ -92,11 +92,11 @@ class Strands:
 
     @staticmethod
     def read(path: str | os.PathLike[str], *, basis: str = "", width: float = 0) -> Strands:
-        """Reads a .hair or .tfx file. `basis` and `width` (scene units): for files that do not state them."""
+        """Reads a .hair, .tfx, .usda or .abc file. `basis` and `width` (scene units): for files that do not state them."""
         return Strands._of(_pelage.read_strands(file_path(path, "path"), text(basis, "basis"), number(width, "width", 1e6)))
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes a .hair or .tfx file, whole or not at all. Warns of what the format cannot hold."""
+        """Writes a .hair, .tfx, .usda or .abc file, whole or not at all. Warns of what the format cannot hold."""
         file = file_path(path, "path")
         lost = _pelage.StrandBatch.what_is_lost(self._batch, file)
         if lost:
@@ -205,5 +205,5 @@ def _attribute(value: ArrayLike, name: str, count: int, total: int) -> NDArray[n
 
 
 def read_strands(path: str | os.PathLike[str], *, basis: str = "", width: float = 0) -> Strands:
-    """Reads a .hair or .tfx file; the same as Strands.read()."""
+    """Reads a .hair, .tfx, .usda or .abc file; the same as Strands.read()."""
     return Strands.read(path, basis=basis, width=width)

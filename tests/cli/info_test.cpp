@@ -7,6 +7,7 @@
 
 #include "base/temporary_folder.h"
 #include "cli/commands.h"
+#include "tests/geom/alembic/ogawa_bytes.h"
 
 namespace pelage {
 namespace {
@@ -44,6 +45,31 @@ magnets: {window: {type: rectangle}}
         "key: sphere\n", "1 magnets\n  window: rectangle\n",
         "sun: sun, 5000 K, visible, illuminates rat.under, pack, shadowed by nothing\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+TEST(InfoAlembic, MeshesBesideUnreadableCurvesAreDescribed) {
+  using namespace ogawa_bytes;
+  const TemporaryFolder folder;
+  Options options;
+  options.input = folder.path() / "s.abc";
+  OgawaBytes b;
+  const Part hermite = b.curves("h", {4}, curve_form(0, 0, 4));
+  const std::vector<Part> faces{b.array("P", kFloat, 3, {raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0})}),
+                                b.array(".faceIndices", kInt32, 1, {raw<int32_t>({0, 1, 2})}),
+                                b.array(".faceCounts", kInt32, 1, {raw<int32_t>({3})})};
+  const Part mesh = b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", faces)});
+  std::ofstream(options.input, std::ios::binary) << b.file({hermite, mesh});
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_info(options), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("1 face"), std::string::npos);
+  std::ofstream(options.input, std::ios::binary) << b.file({hermite});
+  try {
+    run_info(options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("has no curves; curves with the bases Hermite"),
+              std::string::npos);
   }
 }
 

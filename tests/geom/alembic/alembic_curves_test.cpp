@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
-#include "geom/alembic/alembic_curve_vertices.h"
 #include "geom/alembic/alembic_curves_file.h"
-#include "geom/alembic/alembic_scene.h"
-#include "geom/alembic/alembic_strands.h"
-#include "geom/alembic/alembic_values.h"
-#include "geom/curve.h"
-#include "geom/io/strand_file.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
-#include "tests/geom/random_strands.h"
 
 namespace pelage::alembic_curves_test {
 namespace {
@@ -41,161 +34,30 @@ const StrandAttribute& attribute(const StrandArrays& a, const std::string& name)
   return found == a.attributes.end() ? kNone : *found;
 }
 
-StrandArrays with_everything(CurveBasis basis) {
-  RandomStrandOptions options;
-  options.strands = 40;
-  options.min_points = basis == CurveBasis::kBSpline ? 4 : 2;
-  options.basis = basis;
-  StrandArrays a = random_strands(7, options).arrays();
-  const size_t points = a.points.size() / 4, strands = a.ids.size();
-  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}},
-      length{"length", AttributeClass::kPerStrand, 1, {}},
-      wide{"wide", AttributeClass::kPerStrand, 7, std::vector<float>(7 * strands, 0.25f)};
-  for (size_t i = 0; i < 3 * points; ++i) color.values.push_back(0.1f + 1e-3f * static_cast<float>(i));
-  for (size_t i = 0; i < strands; ++i) {
-    length.values.push_back(1.0f / static_cast<float>(i + 1));
-    a.root_uv.emplace_back(0.1f * static_cast<float>(i), 1 / 3.0f);
-  }
-  a.attributes = {color, length, wide, {"clump:size", AttributeClass::kConstant, 2, {1.5f, 1e-20f}}};
-  return a;
-}
-
-constexpr CurveBasis kBases[] = {CurveBasis::kPinnedBSpline, CurveBasis::kBSpline, CurveBasis::kLinear,
-                                 CurveBasis::kCatmullRom};
-
-TEST(AlembicCurves, RoundTripKeepsEverything) {
-  const TemporaryFolder folder;
-  for (const CurveBasis basis : kBases) {
-    const StrandArrays written = with_everything(basis);
-    const std::filesystem::path path = folder.path() / "a.abc";
-    write_strands(path, Strands(written));
-    const UsdCurvesFile file = read_alembic_curves(path);
-    EXPECT_TRUE(file.has_widths);
-    EXPECT_EQ(file.warnings, std::vector<std::string>());
-    EXPECT_EQ(file.strands.basis, basis);
-    EXPECT_EQ(file.strands.first_point, written.first_point);
-    EXPECT_EQ(file.strands.ids, written.ids);
-    EXPECT_EQ(file.strands.root_uv, written.root_uv);
-    EXPECT_EQ(file.strands.points, written.points);  // halving a width is exact
-    EXPECT_EQ(file.strands.attributes.size(), written.attributes.size());
-    for (const StrandAttribute& one : written.attributes) {
-      EXPECT_EQ(attribute(file.strands, one.name).frequency, one.frequency) << one.name;
-      EXPECT_EQ(attribute(file.strands, one.name).components, one.components) << one.name;
-      EXPECT_EQ(attribute(file.strands, one.name).values, one.values) << one.name;
-    }
-    EXPECT_EQ(what_is_lost(path, Strands(written)), "");
-  }
-}
-
-TEST(AlembicCurves, StrandsThatMoveAreWrittenAtTheirFirstKey) {
-  const TemporaryFolder folder;
-  RandomStrandOptions options;
-  options.motion_keys = 2;
-  const Strands moving = random_strands(3, options);
-  write_strands(folder.path() / "a.abc", moving);
-  const StrandArrays read = read_alembic_curves(folder.path() / "a.abc").strands;
-  EXPECT_EQ(read.motion_keys, 1);
-  EXPECT_EQ(read.points, std::vector<float>(moving.points(0).begin(), moving.points(0).end()));
-}
-
-/// The strands that a program sees which follows AbcGeom and knows nothing of Pelage.
-Strands as_others_read(const StrandArrays& written, AlembicHost host, CurveBasis basis) {
-  const Strands strands(written);
-  const AlembicCurveVertices file(strands, host);
-  StrandArrays a;
-  a.basis = basis;
-  a.first_point.push_back(0);
-  for (size_t s = 0; s < strands.strand_count(); ++s) {
-    a.ids.push_back(s);
-    a.first_point.push_back(a.first_point.back() + static_cast<uint32_t>(file.count(s)));
-    for (size_t i = 0; i < file.count(s); ++i) {
-      const AlembicCurveVertex v = file.vertex(s, i);
-      a.points.insert(a.points.end(), {v.position.x, v.position.y, v.position.z, 0.5f * v.width});
+TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
+  // Three curves of three points each, with phantoms; the width of vertex i of a curve is its x.
+  for (const int basis : {2, 3}) {
+    for (const std::string scope : {"vtx", "var", "fvr"}) {
+      OgawaBytes b;
+      const std::vector<float> x{0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4};
+      const std::vector<Part> geometry{
+          b.array("width", kFloat, 1, {raw(x)}, "geoScope=" + scope),
+          b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
+      const UsdCurvesFile file = read_curves({5, 5, 5}, curve_form(0, 0, basis), geometry, {}, b);
+      EXPECT_EQ(file.warnings, std::vector<std::string>());
+      ASSERT_EQ(file.strands.points.size(), 4u * 9);
+      for (size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(file.strands.points[4 * i + 3], 0.5f * file.strands.points[4 * i]) << scope;
     }
   }
-  return Strands(std::move(a));
-}
-
-TEST(AlembicCurves, OtherProgramsSeeTheSameCurves) {
-  StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);
-  written.attributes.clear();
-  const Strands strands(written);
-  const Strands others = as_others_read(written, AlembicHost::kAny, CurveBasis::kBSpline);
-  for (size_t s = 0; s < strands.strand_count(); ++s) {
-    const uint32_t segments = segment_count(CurveBasis::kPinnedBSpline, strands.strand_points(s));
-    ASSERT_EQ(segment_count(CurveBasis::kBSpline, others.strand_points(s)), segments);
-    for (uint32_t i = 0; i < segments; ++i) {
-      const CubicSegment a = bezier_segment(strands, s, i), b = bezier_segment(others, s, i);
-      for (const float t : {0.0f, 0.3f, 1.0f}) {
-        // Coordinates are below 4; a sum of four products of floats is good to some 1e-6.
-        EXPECT_LT((curve_position(a, t) - curve_position(b, t)).length(), 3e-6f);
-        // Widths beyond the ends are not below 0.
-        EXPECT_GE(curve_radius(b, t), curve_radius(a, t) - 1e-6f);
-      }
-    }
-  }
-}
-
-TEST(AlembicCurves, StrandsForUnrealAreOnTheCurves) {
-  for (const CurveBasis basis : kBases) {
-    StrandArrays written = with_everything(basis);
-    const Strands strands(written);
-    const Strands unreal = as_others_read(written, AlembicHost::kUnreal, CurveBasis::kLinear);
-    for (size_t s = 0; s < strands.strand_count(); ++s) {
-      const uint32_t segments = segment_count(basis, strands.strand_points(s));
-      ASSERT_EQ(unreal.strand_points(s), segments + 1);
-      for (uint32_t i = 0; i <= segments; ++i) {
-        const CubicSegment segment = bezier_segment(strands, s, std::min(i, segments - 1));
-        const V3f p = curve_position(segment, i < segments ? 0.0f : 1.0f);
-        const V3f q = unreal.point(unreal.first_point(s) + i);
-        EXPECT_LT((V3f(p.x, p.z, p.y) - q).length(), 3e-6f);
-      }
-    }
-  }
-}
-
-TEST(AlembicCurves, UnrealsSchemaIsComplete) {
-  const TemporaryFolder folder;
-  const std::filesystem::path path = folder.path() / "rat.abc";
-  StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);
-  const std::vector<float> tint{0.5f, 0.25f, 0.125f};
-  written.attributes = {{"color", AttributeClass::kConstant, 3, tint},
-                        {"guide", AttributeClass::kPerStrand, 1, std::vector<float>(40, 1)}};
-  write_alembic_strands(path, Strands(written), {true, "rat", AlembicHost::kUnreal});
-  const AlembicArchive archive(path);
-  const std::vector<AlembicObject> top = archive.children(archive.top());
-  ASSERT_EQ(top.size(), 1u);
-  const auto compound = [&](const AlembicObject& object, const char* schema, const char* name) {
-    const AlembicCompound properties = archive.properties(object);
-    const AlembicCompound inner = archive.compound(*properties.find(schema));
-    return archive.compound(*inner.find(name));
-  };
-  for (const char* place : {".arbGeomParams", ".userProperties"}) {
-    const AlembicCompound facts = compound(top[0], ".xform", place);
-    EXPECT_EQ(alembic_integers(archive, *facts.find("groom_version_major")), std::vector<int64_t>{1});
-    EXPECT_EQ(alembic_integers(archive, *facts.find("groom_version_minor")), std::vector<int64_t>{4});
-    EXPECT_EQ(alembic_text(archive, *facts.find("groom_tool")).substr(0, 6), "Pelage");
-  }
-  const AlembicObject hair = archive.children(top[0]).at(0);
-  const AlembicCompound params = compound(hair, ".geom", ".arbGeomParams");
-  const auto scope = [&](const char* name) {
-    const AlembicProperty* property = params.find(name);
-    return property ? alembic_metadata(property->metadata, "geoScope") : "missing";
-  };
-  EXPECT_EQ(alembic_text(archive, *params.find("groom_group_name")), "rat");
-  EXPECT_EQ(scope("groom_group_name"), "con");
-  EXPECT_EQ(scope("groom_id"), "uni");
-  EXPECT_EQ(scope("groom_root_uv"), "uni");
-  EXPECT_EQ(scope("groom_guide"), "uni");
-  EXPECT_EQ(scope("groom_width"), "vtx");
-  EXPECT_EQ(scope("groom_color"), "vtx");
-  EXPECT_EQ(params.find("groom_guide")->pod, AlembicPod::kInt16);
-  EXPECT_EQ(alembic_count(archive, *params.find("groom_color")),
-            3 * alembic_count(archive, *params.find("groom_width")));
-  const UsdCurvesFile file = read_alembic_curves(path);
-  EXPECT_EQ(file.strands.basis, CurveBasis::kLinear);
-  EXPECT_EQ(file.strands.ids, written.ids);
-  EXPECT_EQ(attribute(file.strands, "color").values[3], tint[0]);
+  // One value per point, as programs count that know two varying values per segment of a B-spline.
+  OgawaBytes b;
+  const std::vector<Part> geometry{
+      b.array("width", kFloat, 1, {raw<float>({2, 4, 6, 2, 4, 6})}, "geoScope=var"),
+      b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
+  const UsdCurvesFile file = read_curves({5, 5}, curve_form(0, 0, 2), geometry, {}, b);
+  EXPECT_EQ(file.warnings, std::vector<std::string>());
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(file.strands.points[4 * i + 3], file.strands.points[4 * i]);
 }
 
 TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
@@ -222,12 +84,52 @@ TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
   OgawaBytes knots;
   const std::vector<Part> clamped{
       knots.array(".knots", kFloat, 1, {raw<float>({0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4})})};
-  EXPECT_EQ(basis_of(curve_form(0, 0, 2), clamped, knots).basis, CurveBasis::kPinnedBSpline);
+  const UsdCurvesFile pinned = read_curves({7}, curve_form(0, 0, 2), clamped, {}, knots);
+  EXPECT_EQ(pinned.strands.basis, CurveBasis::kPinnedBSpline);
+  ASSERT_EQ(pinned.warnings.size(), 1u);
+  EXPECT_NE(pinned.warnings[0].find("approximated by uniform B-splines"), std::string::npos);
   OgawaBytes orders;
   const std::vector<Part> cubic{orders.array(".orders", kUint8, 1, {"\4"})};
   EXPECT_EQ(basis_of(curve_form(2, 0, 0), cubic, orders).basis, CurveBasis::kBSpline);
   OgawaBytes power;
-  EXPECT_THROW(basis_of(curve_form(0, 0, 5), {}, power), Error);  // skipped: no curves are left
+  try {
+    basis_of(curve_form(0, 0, 5), {}, power);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("has no curves; curves with the bases Hermite and power are skipped"),
+        std::string::npos);
+  }
+}
+
+TEST(AlembicCurves, BSplinesWithThreefoldKnotsAreBezierCurves) {
+  const auto read_knots = [](const std::vector<int32_t>& counts, const std::vector<float>& knots, int basis) {
+    OgawaBytes b;
+    return read_curves(counts, curve_form(0, 0, basis), {b.array(".knots", kFloat, 1, {raw(knots)})}, {}, b);
+  };
+  const std::vector<float> one{0, 0, 0, 0, 1, 1, 1, 1}, two{0, 0, 0, 0, 1, 1, 1, 5, 5, 5, 5},
+      without_ends{0, 0, 0, 1, 1, 1}, uniform{0, 1, 2, 3, 4, 5, 6, 7};
+  for (const auto& [counts, knots] :
+       {std::pair(std::vector<int32_t>{4}, one), std::pair(std::vector<int32_t>{7}, two),
+        std::pair(std::vector<int32_t>{4}, without_ends)}) {
+    const UsdCurvesFile file = read_knots(counts, knots, 2), bezier = read_knots(counts, {}, 1);
+    EXPECT_EQ(file.warnings, std::vector<std::string>());
+    EXPECT_EQ(file.strands.basis, bezier.strands.basis);
+    EXPECT_EQ(file.strands.points, bezier.strands.points);
+  }
+  const UsdCurvesFile plain = read_knots({4}, uniform, 2);
+  EXPECT_EQ(plain.warnings, std::vector<std::string>());
+  EXPECT_EQ(plain.strands.basis, CurveBasis::kBSpline);
+  // The knots of the second curve count, too.
+  std::vector<float> both = uniform;
+  both.insert(both.end(), one.begin(), one.end());
+  const UsdCurvesFile mixed = read_knots({4, 4}, both, 2);
+  EXPECT_EQ(mixed.strands.basis, CurveBasis::kPinnedBSpline);
+  EXPECT_EQ(mixed.warnings.size(), 1u);
+  const UsdCurvesFile misfit = read_knots({4}, two, 2);
+  EXPECT_EQ(misfit.strands.basis, CurveBasis::kBSpline);
+  ASSERT_EQ(misfit.warnings.size(), 1u);
+  EXPECT_NE(misfit.warnings[0].find("knots that do not fit"), std::string::npos);
 }
 
 TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
@@ -253,6 +155,24 @@ TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
   EXPECT_EQ(attribute(a, "color").values, (std::vector<float>{1, 0, 0}));
   EXPECT_EQ(attribute(a, "pair").values, (std::vector<float>{3, 4, 1, 2}));
   EXPECT_EQ(a.attributes.size(), 2u);
+}
+
+TEST(AlembicCurves, UnusedParametersOfOtherSizesAreSkipped) {
+  OgawaBytes b;
+  const std::vector<Part> params{
+      b.array("seeds", kFloat, 1, {raw<float>({1, 2, 3, 4, 5, 6, 7})}, "geoScope=con"),
+      b.array("mine", kFloat, 1, {raw<float>({1, 2})}, "geoScope=uni")};
+  const UsdCurvesFile file = read_curves({3, 3}, linear_form(), {}, params, b);
+  ASSERT_EQ(file.strands.attributes.size(), 1u);
+  EXPECT_EQ(file.strands.attributes[0].name, "mine");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(file.warnings[0].find("'seeds' has 7 values; 6 vertices, 2 curves"), std::string::npos);
+  for (const char* needed : {"width", "uv"}) {
+    OgawaBytes bad;
+    const std::vector<Part> geometry{bad.array(needed, kFloat, needed[0] == 'w' ? 1 : 2,
+                                               {raw(std::vector<float>(14, 1))}, "geoScope=vtx")};
+    EXPECT_THROW(read_curves({3, 3}, linear_form(), geometry, {}, bad), Error) << needed;
+  }
 }
 
 TEST(AlembicCurves, GuidesAreSkippedUnlessThereIsNothingElse) {

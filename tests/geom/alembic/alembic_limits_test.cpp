@@ -12,6 +12,7 @@
 #include "geom/alembic/alembic_validation.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/geom/random_strands.h"
+#include "tests/support/allocation_meter.h"
 
 namespace pelage::alembic_limits_test {
 namespace {
@@ -222,6 +223,71 @@ TEST_F(AlembicLimits, HostileFilesAreRefused) {
   EXPECT_NE(refusal(index.file({indexed})).find("the index 1 is not one of 1 elements"), std::string::npos);
 }
 
+TEST_F(AlembicLimits, NamesAreShortAndOfOneLine) {
+  const std::vector<std::pair<std::string, const char*>> bad{{std::string(70'000, 'n'), "70000 bytes"},
+                                                             {"c\nerror: more", "control character"},
+                                                             {"c\x1b[31m", "control character"},
+                                                             {"", "a name is empty"}};
+  for (const auto& [name, why] : bad) {
+    OgawaBytes b;
+    EXPECT_NE(refusal(b.file({b.curves(name, {2}, linear_form())})).find(why), std::string::npos) << why;
+  }
+  OgawaBytes b;
+  const Part param = b.array("two\nlines", kFloat, 1, {raw<float>({1, 2, 3, 4, 5})}, "geoScope=vtx");
+  EXPECT_NE(refusal(b.file({b.curves("c", {2}, linear_form(), {}, {param})})).find("control character"),
+            std::string::npos);
+  // Objects within each other that share the header of one long name.
+  OgawaBytes shared;
+  const Part leaf = shared.object(std::string(4000, 'n'), "", {});
+  const uint64_t header = shared.data(leaf.header + std::string(32, 'h'));
+  uint64_t word = leaf.word;
+  for (int i = 0; i < 100; ++i) word = shared.group({0, word, header});
+  EXPECT_NE(refusal(shared.file(word)).find("path of an object has more than 65536 bytes"),
+            std::string::npos);
+}
+
+TEST_F(AlembicLimits, SharedHeadersAreRefused) {
+  // 2000 objects whose properties are one compound of 2000: 4 million headers in a file of 100 kB.
+  OgawaBytes b;
+  const Part compound = b.compound("a", std::vector<Part>(2000, b.compound("p", {})));
+  std::vector<Part> objects;
+  const uint64_t none = b.data(std::string(32, 'h'));
+  for (int i = 0; i < 2000; ++i) {
+    Part one = b.object("o", "", {});
+    one.word = b.group({compound.word, none});
+    objects.push_back(one);
+  }
+  EXPECT_NE(refusal(b.file(objects)).find("share their headers"), std::string::npos);
+  // As many with compounds of their own.
+  OgawaBytes own;
+  std::vector<Part> different;
+  for (int i = 0; i < 200; ++i)
+    different.push_back(own.object("o", "", std::vector<Part>(200, own.compound("p", {}))));
+  EXPECT_NE(refusal(own.file(different)).find("has no curves"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, ValidationReadsSharedNumbersAFewTimes) {
+  OgawaBytes b;
+  const Part points = b.array("P", kFloat, 3, {raw(std::vector<float>(30000, 1))}),
+             counts = b.array("nVertices", kInt32, 1, {raw<int32_t>({10000})}),
+             form = b.scalar("curveBasisAndType", kUint8, 4, {linear_form()});
+  std::vector<Part> objects;
+  for (int i = 0; i < 300; ++i)
+    objects.push_back(b.object("c", "AbcGeom_Curve_v2", {b.compound(".geom", {points, counts, form})}));
+  const UsdFindings found = validate_alembic(put(b.file(objects)));
+  EXPECT_EQ(found.curves, 300u);
+  EXPECT_LT(found.points, 3'000'000u);
+  EXPECT_NE(found.remarks.back().find("are not checked"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, TransformsHaveFewOperations) {
+  OgawaBytes b;
+  const std::vector<Part> xform{b.array(".ops", kUint8, 1, {std::string(300, '\x10')}),
+                                b.array(".vals", kDouble, 1, {raw(std::vector<double>(900, 0))})};
+  const Part object = b.object("x", "AbcGeom_Xform_v3", {b.compound(".xform", xform)});
+  EXPECT_NE(refusal(b.file({object})).find("more than 255 operations"), std::string::npos);
+}
+
 TEST_F(AlembicLimits, MemoryIsCheckedBeforeItIsTaken) {
   OgawaBytes b;
   const std::vector<int32_t> counts(1000, 10);
@@ -233,8 +299,45 @@ TEST_F(AlembicLimits, MemoryIsCheckedBeforeItIsTaken) {
   const Part expanded = wide.curves(
       "c", {2}, linear_form(), {},
       {wide.compound("x", {wide.array(".vals", kFloat, 16, {raw(std::vector<float>(16, 1))}),
-                           wide.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(10'000, 0))})})});
+                           wide.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(20'000, 0))})})});
   EXPECT_NE(refusal(wide.file({expanded})).find("needs more than the free memory"), std::string::npos);
+}
+
+TEST_F(AlembicLimits, TheLimitOfMemoryHoldsForAllThatIsTaken) {
+  // Bases that keep their vertices and that are resampled, one curve and many, ids in order and not, and two
+  // objects of different bases; each with wide parameters of vertices and curves.
+  for (const int basis : {0, 1, 3, 4}) {
+    for (const bool one : {false, true}) {
+      OgawaBytes b;
+      const std::vector<int32_t> counts = one ? std::vector<int32_t>{16'001} : std::vector<int32_t>(2000, 8);
+      const size_t vertices = one ? 16'001 : 16'000;
+      std::vector<int32_t> ids(counts.size());
+      for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int32_t>(basis == 3 ? i : ids.size() - i);
+      const std::vector<Part> params{
+          b.array("a", kFloat, 16, {raw(std::vector<float>(16 * vertices, 1))}, "geoScope=vtx"),
+          b.array("b", kFloat, 3, {raw(std::vector<float>(3 * counts.size(), 1))}, "geoScope=uni"),
+          b.compound("c",
+                     {b.array(".vals", kFloat, 3, {raw<float>({1, 2, 3})}, "geoScope=vtx"),
+                      b.array(".indices", kUint32, 1, {raw(std::vector<uint32_t>(vertices, 0))})},
+                     "geoScope=vtx"),
+          b.array("groom_id", kInt32, 1, {raw(ids)}, "geoScope=uni")};
+      const std::vector<Part> widths{
+          b.array("width", kFloat, 1, {raw(std::vector<float>(vertices, 1))}, "geoScope=vtx")};
+      const std::string form = basis == 0 ? linear_form() : curve_form(0, 0, basis == 4 ? 2 : basis);
+      std::vector<Part> objects{b.curves("c", counts, form, widths, params)};
+      if (basis == 4) objects.push_back(b.curves("d", {500}, linear_form()));
+      const std::filesystem::path path = put(b.file(objects));
+      reset_peak();
+      const size_t before = live_bytes();
+      read_alembic_curves(path);
+      const size_t peak = peak_bytes() - before;
+      // 64 KiB: paths and headers, which are not counted.
+      const auto refused = static_cast<int64_t>(peak - (1 << 16));
+      EXPECT_THROW(read_alembic_curves(path, {refused}), Error) << basis << one;
+      // The estimate is no more than twice the memory.
+      EXPECT_NO_THROW(read_alembic_curves(path, {static_cast<int64_t>(2 * peak)})) << basis << one;
+    }
+  }
 }
 
 TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
@@ -258,11 +361,26 @@ TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
                            "1 coordinates of points are not finite", "1 widths are negative",
                            "smaller than the strands", "no texture coordinates", "no ids"})
     EXPECT_NE(found.find(part), std::string::npos) << part << "\n" << found;
+  OgawaBytes wrong;
+  const std::vector<Part> sizes{wrong.array("P", kFloat, 2, {raw<float>({0, 0, 1, 1})}),
+                                wrong.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
+                                wrong.scalar("curveBasisAndType", kUint8, 4, {linear_form()}),
+                                wrong.array("width", kFloat, 1, {raw<float>({1, 1, 1})}, "geoScope=vtx")};
+  const std::string odd =
+      findings(wrong.file({wrong.object("c", "AbcGeom_Curve_v2", {wrong.compound(".geom", sizes)})}));
+  EXPECT_NE(odd.find("a.abc: </c>: its points have 2 coordinates"), std::string::npos) << odd;
+  EXPECT_NE(odd.find("a.abc: </c>: 'width' has 3 values; 2 vertices"), std::string::npos) << odd;
+  OgawaBytes groom;
+  const Part width = groom.array("groom_width", kFloat, 1, {raw<float>({1, 1})}, "geoScope=vtx");
+  EXPECT_EQ(findings(groom.file({groom.curves("c", {2}, linear_form(), {}, {width})})).find("no widths"),
+            std::string::npos);
   const std::filesystem::path good = folder_.path() / "good.abc";
   StrandArrays strands = random_strands(3).arrays();
   strands.root_uv.resize(strands.ids.size());
   write_alembic_strands(good, Strands(strands), {});
   EXPECT_EQ(findings(read_file(good)), "");
+  const UsdFindings counted = validate_alembic(good);  // of which "good" has phantoms
+  EXPECT_EQ(counted.points, strands.points.size() / 4);
 }
 
 }  // namespace
