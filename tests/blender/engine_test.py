@@ -8,9 +8,9 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path, render, run,
-                    set_world)
-from pelage_blender import hair_particles
+from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
+                    render, run, set_world)
+from pelage_blender import hair_particles, meshes
 
 
 class Engine(unittest.TestCase):
@@ -128,6 +128,37 @@ class Engine(unittest.TestCase):
         # Partly covered pixels of both are binomial with 64 samples: at most 0.06, and 0.02 on average over a column of 8.
         np.testing.assert_allclose(blurred["A"].mean(axis=0), truth["A"].mean(axis=0), atol=0.02)
 
+    def test_a_mesh_with_another_topology_stays_where_it_is(self):
+        empty_scene()
+        bpy.ops.mesh.primitive_monkey_add()
+        ob = bpy.context.object
+        modifier = ob.modifiers.new("fewer", "DECIMATE")
+        modifier.ratio = 0.3
+        graph = bpy.context.evaluated_depsgraph_get()
+        evaluated = ob.evaluated_get(graph)
+        cage = meshes.cage_of(evaluated, evaluated.data, False, False, [])
+        np.testing.assert_array_equal(meshes.pose_of(evaluated, evaluated.data, cage), cage.points)
+        modifier.ratio = 1
+        evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        self.assertGreater(len(evaluated.data.vertices), cage.topology[0])
+        self.assertIsNone(meshes.pose_of(evaluated, evaluated.data, cage))
+
+    def test_smooth_polygons_of_two_materials_have_no_seam(self):
+        pictures = []
+        for slots in (1, 2):
+            empty_scene(24, 24)
+            camera((0, -4, 0))
+            light("SUN", (3, -3, 3), energy=3)
+            bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=6)
+            bpy.ops.object.shade_smooth()
+            ob = bpy.context.object
+            for name in "ab":
+                ob.data.materials.append(material(name=name, Color=(0.5, 0.5, 0.5, 1)))
+            for polygon in ob.data.polygons:
+                polygon.material_index = int(polygon.center.z > 0) * (slots - 1)
+            pictures.append(render(samples=4)["R"])
+        np.testing.assert_allclose(*pictures, atol=1e-3)  # halves
+
     def test_an_image_lights_the_world(self):
         scene = empty_scene()
         tree = scene.world.node_tree
@@ -186,7 +217,7 @@ class Engine(unittest.TestCase):
         self.assertAlmostEqual(float(picture["ViewLayer.Depth.Z"][12, 12]), 29 ** 0.5, delta=29 ** 0.5 * 0.029 * 2.5)
 
     def test_materials_and_images_reach_the_picture(self):
-        scene = empty_scene(16, 16)
+        empty_scene(16, 16)
         plane = grey_plane(8)
         image = bpy.data.images.new("Bild mit 'Umlaut ä'", 4, 4, float_buffer=True)
         image.pixels.foreach_set(np.tile(np.array([0.6, 0.3, 0.1, 1], np.float32), 16))
@@ -200,7 +231,6 @@ class Engine(unittest.TestCase):
         # In a white room, a diffuse surface has its own colour; the half floats of the picture have 11 bits.
         for channel, value in zip("RGB", (0.6, 0.3, 0.1)):
             self.assertAlmostEqual(picture[channel].mean(), value, delta=0.004)
-        del scene
 
     def test_tiles_of_an_image(self):
         empty_scene(16, 16)

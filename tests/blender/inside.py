@@ -24,10 +24,12 @@ shots = 0
 
 
 def run():
-    """Runs the tests of the main module; the exit code of Blender says how they went."""
+    """Runs the tests of the main module, or those that the arguments name; the exit code of Blender says how they went."""
     pelage_blender.register()
     import __main__
-    suite = unittest.defaultTestLoader.loadTestsFromModule(__main__)
+    names = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    loader = unittest.defaultTestLoader
+    suite = loader.loadTestsFromNames(names, __main__) if names else loader.loadTestsFromModule(__main__)
     result = unittest.TextTestRunner(verbosity=2).run(suite)
     sys.stdout.flush()
     sys.exit(0 if result.wasSuccessful() else 1)
@@ -117,7 +119,10 @@ def new_path(ending):
 
 
 def render(engine=None, samples=None, multilayer=False, animation=False):
-    """Renders the scene; returns the channels of the picture by name, top row first. With `animation`: one such dict per frame."""
+    """Renders the scene; returns the channels of the picture by name, top row first.
+
+    With `animation`: one such dict per frame.
+    """
     scene = bpy.context.scene
     scene.render.engine = engine or scene.render.engine
     if samples is not None:

@@ -171,18 +171,51 @@ class SceneWriter:
             self.document["lights"][self.name("lights", stage.names[key])] = block
 
     def _plain(self, items: list[Item]) -> None:
-        """Surfaces without fur: one skin per material, because few skins are faster."""
+        """Surfaces without fur: one skin per material, because few skins are faster.
+
+        A mesh of several materials is cut only where nothing depends on what lies across the cut.
+        """
+        whole: list[Block] = []
         buckets: dict[tuple[str, str, str], list[Placed]] = {}
         for item in items:
             if not item.shown:
                 continue
-            for slot in np.unique(item.cage.slots):
-                part = faces_of_slot(item.cage, int(slot))
-                material = self.material("surface", item.materials[min(int(slot), len(item.materials) - 1)])
+            slots = [int(slot) for slot in np.unique(item.cage.slots)]
+            if len(slots) > 1 and self._stays_whole(item, slots):
+                skin = self.skin(item.name, (item.cage, item.poses), None, self._groups(item.cage, slots))
+                whole.append({"skin": skin, "material": self._skin_material(item, slots)})
+                continue
+            for slot in slots:
+                part = faces_of_slot(item.cage, slot)
+                material = self.material("surface", item.materials[min(slot, len(item.materials) - 1)])
                 poses = [pose[part.vertices] for pose in item.poses]
                 buckets.setdefault((material, part.scheme, part.boundary), []).append((part, poses))
         self._character("scene", [{"skin": self.skin(material, merged(parts)), "material": material}
-                                  for (material, _, _), parts in buckets.items()])
+                                  for (material, _, _), parts in buckets.items()] + whole)
+
+    def _stays_whole(self, item: Item, slots: list[int]) -> bool:
+        """Whether cutting a mesh by its materials would be seen: in the shape of a cage, or in smooth normals.
+
+        Polygons whose materials differ in more than the colour are cut in any case.
+        """
+        cage = item.cage
+        if cage.scheme != "none":
+            return True
+        of_corner = np.repeat(cage.slots, cage.sizes)
+        used = sum(len(np.unique(cage.corners[of_corner == slot])) for slot in slots)
+        return used > len(np.unique(cage.corners)) and not self._differ(self._slot_blocks(item, slots))
+
+    @staticmethod
+    def _groups(cage: Cage, slots: list[int]) -> list[tuple[str, np.ndarray]] | None:
+        return [(f"slot{slot}", np.flatnonzero(cage.slots == slot)) for slot in slots] if len(slots) > 1 else None
+
+    def _slot_blocks(self, item: Item, slots: list[int]) -> list[Block]:
+        return [self.converter.surface(item.materials[min(slot, len(item.materials) - 1)]) for slot in slots]
+
+    @staticmethod
+    def _differ(blocks: list[Block]) -> bool:
+        """Whether materials differ in more than their colours."""
+        return any(block | {"color": None} != blocks[0] | {"color": None} for block in blocks[1:])
 
     def _furry(self, item: Item, curves: list[Hair]) -> None:
         """A surface with fur: a character of its own."""
@@ -194,10 +227,9 @@ class SceneWriter:
             self._character(item.name, [{"grooms": dict(self.strands(h, None) for h in hair)}] if hair else [])
             return
         cage, slots = item.cage, [int(slot) for slot in np.unique(item.cage.slots)]
-        groups = [(f"slot{slot}", np.flatnonzero(cage.slots == slot)) for slot in slots] if len(slots) > 1 else None
         material = self._skin_material(item, slots)
         rest = groom.rest_points(item) if coats else None
-        skin = self.skin(item.name, (cage, item.poses), rest, groups)
+        skin = self.skin(item.name, (cage, item.poses), rest, self._groups(cage, slots))
         part: Block = {"skin": skin, "material": material, "grooms": {}}
         for coat in coats:
             if coat.enabled:
@@ -210,10 +242,11 @@ class SceneWriter:
         self._character(item.name, [part])
 
     def _skin_material(self, item: Item, slots: list[int]) -> str:
-        materials = [item.materials[min(slot, len(item.materials) - 1)] for slot in slots]
         if len(slots) == 1:
-            return self.material("surface", materials[0])
+            return self.material("surface", item.materials[min(slots[0], len(item.materials) - 1)])
         name = self.name("materials", f"{item.name} skin")
-        blocks = [self.converter.surface(material) for material in materials]
+        blocks = self._slot_blocks(item, slots)
+        if self._differ(blocks):
+            self.notes.add("several materials on a subdivided or furry mesh: all but their colours are those of the first")
         self.document["materials"][name] = by_slot(blocks, [f"slot{slot}" for slot in slots])
         return name
