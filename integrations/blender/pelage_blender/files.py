@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import shutil
+import socket
 import struct
 import tempfile
 from typing import Any
@@ -17,15 +18,28 @@ PREFIX = "pelage-blender-"
 """How the names of temporary folders begin."""
 
 
+def owner_prefix() -> str:
+    """How the names of the temporary folders of this machine's processes begin; computers may share a folder for them.
+
+    Containers have numbers of processes of their own, so the name stands for both.
+    """
+    try:
+        space = os.readlink("/proc/self/ns/pid")
+    except OSError:
+        space = ""
+    return PREFIX + hashlib.blake2b(f"{socket.gethostname()} {space}".encode(), digest_size=6).hexdigest() + "-"
+
+
 def new_folder() -> str:
     """A temporary folder whose name says which process it belongs to."""
-    return tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-")
+    return tempfile.mkdtemp(prefix=f"{owner_prefix()}{os.getpid()}-")
 
 
 def remove_stale_folders() -> None:
-    """Removes folders of processes that are gone, which were killed."""
-    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-        owner = path.name[len(PREFIX):].partition("-")[0]
+    """Removes folders of processes of this machine that are gone, which were killed."""
+    prefix = owner_prefix()
+    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+        owner = path.name[len(prefix):].partition("-")[0]
         if owner.isdigit() and not os.path.exists(f"/proc/{owner}") and os.path.exists("/proc/self"):
             shutil.rmtree(path, ignore_errors=True)
 
@@ -131,12 +145,20 @@ class SceneFolder:
         return name
 
 
-def pelage_name(name: str, taken: set[str]) -> str:
+def light_name(name: str, taken: set[str]) -> str:
+    """The name of a light, short enough for Blender.
+
+    In a multilayer file, a channel has 64 bytes for view layer, light, lobe and letter: ViewLayer.light.secondary.R.
+    """
+    return pelage_name(name, taken, 40)
+
+
+def pelage_name(name: str, taken: set[str], max_bytes: int = 1 << 16) -> str:
     """A name for Pelage that nobody has yet: without dots, which separate names there, and added to `taken`."""
     wanted = "".join("_" if c in ".,\n\r\t" else c for c in name).strip() or "unnamed"
-    result, count = wanted, 1
-    while result in taken:
+    count, ending = 1, ""
+    while (result := wanted.encode()[:max_bytes - len(ending)].decode(errors="ignore") + ending) in taken:
         count += 1
-        result = f"{wanted} {count}"
+        ending = f" {count}"
     taken.add(result)
     return result

@@ -12,7 +12,7 @@ from . import exr, groom
 from .axes import spot_image, to_pelage
 from .camera import moving, scene_camera
 from .collect import Hair, Item, Stage, add_pose, collect, shutter_times, visit
-from .files import SceneFolder, document_text, hair_bytes, obj_text, pelage_name, vertex_text
+from .files import SceneFolder, document_text, hair_bytes, light_name, obj_text, pelage_name, vertex_text
 from .lights import world_block
 from .materials import MaterialConverter, by_slot
 from .meshes import Cage, faces_of_slot
@@ -80,7 +80,8 @@ class SceneWriter:
         return scene_camera(camera.evaluated_get(depsgraph), depsgraph, size, self.notes)
 
     def name(self, block: str, wanted: str) -> str:
-        return pelage_name(wanted, self.taken.setdefault(block, set()))
+        taken = self.taken.setdefault(block, set())
+        return light_name(wanted, taken) if block == "lights" else pelage_name(wanted, taken)
 
     def file(self, name: str, content: str | bytes) -> str:
         stem, _, ending = name.rpartition(".")
