@@ -194,11 +194,25 @@ class Engine(unittest.TestCase):
         render_settings.use_crop_to_border = True
         np.testing.assert_array_equal(render()["R"], whole["R"][:24, 16:48])
 
+    def test_sizes_are_rounded_as_in_blender(self):
+        scene = empty_scene(100, 90)
+        camera()
+        set_world(1)
+        for percentage in (29, 57):
+            scene.render.resolution_percentage = percentage
+            render(samples=1)  # Blender refuses another size
+        scene.render.resolution_percentage = 100
+        scene.render.use_border = True
+        scene.render.border_min_x, scene.render.border_max_x = 0.29, 0.7
+        scene.render.border_min_y, scene.render.border_max_y = 0.1, 0.57
+        ours, truth = render(samples=1), render("CYCLES", 1)
+        np.testing.assert_array_equal(ours["R"] > 0, truth["R"] > 0)
+
     def test_layers_of_lights_add_up(self):
         scene = empty_scene(24, 24)
         grey_plane()
         camera()
-        light("SUN", energy=2, name="Sonne über 'Köln' \"1\"")
+        light("SUN", energy=2, name="Sonne über 'Köln' \"1\", hinter den Häusern am anderen Ufer")  # 62 bytes
         light("POINT", (0, 1, 1), energy=20, name="point.001")
         set_world(0.3)
         scene.pelage.light_layers = scene.pelage.data_layers = True
@@ -318,6 +332,17 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()
         self.assertIn("camera", str(caught.exception).lower())
+
+    def test_a_layout_of_memory_with_other_points_is_noticed(self):
+        keys = np.zeros((30, 5, 3), np.float32)
+        system = mock.Mock()
+        system.co_hair.return_value = (0, 0, 0)
+        hair_particles._checked(None, system, range(30), keys, np.full(30, 4))
+        for value in (1, np.nan):
+            wrong = keys.copy()
+            wrong[0, 2, 1] = value
+            with self.assertRaises(OSError):
+                hair_particles._checked(None, system, range(30), wrong, np.full(30, 4))
 
     def test_a_missing_program_and_a_crash_are_errors(self):
         empty_scene(16, 16)
