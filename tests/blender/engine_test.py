@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
                     render, run, set_world)
-from pelage_blender import hair_particles, meshes
+from pelage_blender import files, hair_particles, meshes, scene_writer
 
 
 class Engine(unittest.TestCase):
@@ -159,6 +159,26 @@ class Engine(unittest.TestCase):
             pictures.append(render(samples=4)["R"])
         np.testing.assert_allclose(*pictures, atol=1e-3)  # halves
 
+    def test_every_motion_step_of_the_camera_and_the_lights_is_written(self):
+        scene = empty_scene(8, 8)
+        grey_plane()
+        camera()
+        light("SPOT", energy=100)
+        for ob in (bpy.data.objects["camera"], bpy.data.objects["light"]):
+            for frame, x in ((1, 0), (1.5, 1), (2, 0)):
+                ob.location.x = x
+                ob.keyframe_insert("location", frame=frame)
+        scene.render.use_motion_blur, scene.render.motion_blur_shutter, scene.pelage.motion_keys = True, 1, 3
+        scene.cycles.motion_blur_position = "START"
+        folder = OUTPUT / "moving"
+        folder.mkdir()
+        document = scene_writer.SceneWriter(files.SceneFolder(folder)).write(
+            bpy.context.evaluated_depsgraph_get(), (8, 8), lambda whole, part: scene.frame_set(whole, subframe=part))
+        for block in (document["camera"], document["lights"]["light"]):
+            places = {key: place[0] for key, place in block["position"]["keys"].items()}
+            self.assertEqual(places, {"1": 0, "1.5": 1, "2": 0})
+        self.assertGreater(mean(render(samples=1)), 0)
+
     def test_an_image_lights_the_world(self):
         scene = empty_scene()
         tree = scene.world.node_tree
@@ -245,6 +265,26 @@ class Engine(unittest.TestCase):
         # In a white room, a diffuse surface has its own colour; the half floats of the picture have 11 bits.
         for channel, value in zip("RGB", (0.6, 0.3, 0.1)):
             self.assertAlmostEqual(picture[channel].mean(), value, delta=0.004)
+
+    def test_a_sequence_of_images_follows_the_frame(self):
+        scene = empty_scene(8, 8)
+        for frame, value in ((1, 0.2), (2, 0.8)):
+            (OUTPUT / f"seq{frame:04d}.exr").write_bytes(exr.encode({c: np.full((4, 4), value, np.float32) for c in "RGB"}))
+        plane = grey_plane(8)
+        tree = plane.data.materials[0].node_tree
+        node = tree.nodes.new("ShaderNodeTexImage")
+        node.image = bpy.data.images.load(str(OUTPUT / "seq0001.exr"))
+        node.image.source = "SEQUENCE"
+        user = node.image_user
+        user.frame_duration, user.frame_start, user.use_auto_refresh = 2, 1, True
+        tree.links.new(node.outputs["Color"], tree.nodes["Diffuse BSDF"].inputs["Color"])
+        camera((0, 0, 3))
+        set_world(1)
+        for frame, value, cyclic in ((1, 0.2, False), (2, 0.8, False), (5, 0.2, True), (0, 0.2, False)):
+            user.use_cyclic = cyclic
+            scene.frame_set(frame)
+            # In a white room, a diffuse surface has its own colour; four samples of 64 pixels have a noise of 0.01.
+            self.assertAlmostEqual(mean(render(samples=4)), value, delta=0.05)
 
     def test_tiles_of_an_image(self):
         empty_scene(16, 16)

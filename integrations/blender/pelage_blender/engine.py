@@ -108,7 +108,7 @@ class PelageEngine(bpy.types.RenderEngine):
         size = picture_size(scene)
         region = border(scene, size)
         self.update_stats("Pelage", "Reading the scene")
-        writer = SceneWriter(SceneFolder(folder))
+        writer = SceneWriter(SceneFolder(folder), self._check)
         writer.write(depsgraph, size, self.frame_set)
         if writer.notes:
             self.report({"INFO"}, "Pelage: without counterpart: " + "; ".join(sorted(writer.notes)))
@@ -122,6 +122,10 @@ class PelageEngine(bpy.types.RenderEngine):
         for warning in result.warnings:
             self.report({"WARNING"}, f"Pelage: {warning}")
         self._show(depsgraph, output, size if region is None else (region[2] - region[0], region[3] - region[1]))
+
+    def _check(self) -> None:
+        if self.test_break():
+            raise process.Cancelled
 
     def _progress(self, stage: str, fraction: float) -> None:
         begin, end = SHARE.get(stage, (0.0, 0.05))

@@ -37,33 +37,38 @@ def merged(parts: list[Placed]) -> Placed:
 class SceneWriter:
     """Writes scenes into one folder; a further scene replaces only the files that differ."""
 
-    def __init__(self, folder: SceneFolder) -> None:
-        self.folder = folder
+    def __init__(self, folder: SceneFolder, check: Callable[[], None] = lambda: None) -> None:
+        """check: called between objects; what it raises ends write()."""
+        self.folder, self.check = folder, check
         self.notes: set[str] = set()
 
     def write(self, depsgraph: bpy.types.Depsgraph, size: tuple[int, int],
-              frame_set: Callable[[int, float], None] | None = None, camera: Block | None = None) -> Block:
+              frame_set: Callable[[int, float], None] | None = None, camera: Block | None = None, *,
+              final: bool | None = None, text: Callable[[Block], str] | None = document_text) -> Block:
         """Writes scene.yaml and its files for a picture of `size` pixels, and returns the document.
 
         frame_set: sets the time of the depsgraph, for motion blur; None: no motion blur. camera: in place of the scene's.
+        final: whether samples and layers are those of final pictures; None: if the depsgraph is for them. text: writes
+        scene.yaml; None: only the files beside it.
         """
         self.notes = set()
         self._start(depsgraph)
         scene = depsgraph.scene
         times = shutter_times(scene, scene.pelage.motion_keys) if frame_set is not None else [0.0]
         if frame_set is None or len(times) == 1:
-            stage, cameras = collect(depsgraph, self.notes), [camera or self._camera(depsgraph, size)]
+            stage, cameras = collect(depsgraph, self.notes, self.check), [camera or self._camera(depsgraph, size)]
         else:
             stage, cameras = Stage(), []
             frame = scene.frame_current + scene.frame_subframe
             for index, _ in enumerate(visit(times, frame, frame_set)):
                 if index == 0:
-                    stage = collect(depsgraph, self.notes)
+                    stage = collect(depsgraph, self.notes, self.check)
                 else:
                     add_pose(stage, depsgraph, self.notes)
                 cameras.append(camera or self._camera(depsgraph, size))
-        self._document(depsgraph, size, stage, cameras)
-        self.folder.put("scene.yaml", document_text(self.document))
+        self._document(depsgraph, size, stage, cameras, depsgraph.mode == "RENDER" if final is None else final)
+        if text is not None:
+            self.folder.put("scene.yaml", text(self.document))
         return self.document
 
     def _start(self, depsgraph: bpy.types.Depsgraph) -> None:
@@ -71,7 +76,7 @@ class SceneWriter:
         self.taken: dict[str, set[str]] = {}
         self.files: set[str] = set()
         self.material_names: dict[Any, str] = {}
-        self.converter = MaterialConverter(self.folder, self.notes)
+        self.converter = MaterialConverter(self.folder, self.notes, depsgraph.scene.frame_current)
 
     def _camera(self, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]) -> Block:
         camera = depsgraph.scene.camera
@@ -127,17 +132,18 @@ class SceneWriter:
         self.document["grooms"][name] = block
         return name, self.material("hair", hair.material)
 
-    def _document(self, depsgraph: bpy.types.Depsgraph, size: tuple[int, int], stage: Stage, cameras: list[Block]) -> None:
-        scene, viewport = depsgraph.scene, depsgraph.mode != "RENDER"
-        moving_camera = moving(cameras[0], cameras[-1]) if len(cameras) > 1 else cameras[0]
+    def _document(self, depsgraph: bpy.types.Depsgraph, size: tuple[int, int], stage: Stage, cameras: list[Block],
+                  final: bool) -> None:
+        scene = depsgraph.scene
+        moving_camera = moving(cameras, ("position", "look_at", "up", "fov", "orthographic"))
         if len(cameras) > 1:
             moving_camera |= {"shutter": [0, 1], "motion_keys": len(cameras)}
         self.document |= {
             "pelage": 1, "units": {"meters_per_unit": scene.unit_settings.scale_length,
                                    "fps": scene.render.fps / scene.render.fps_base},
             "camera": moving_camera,
-            "image": {"width": size[0], "height": size[1], "light_layers": scene.pelage.light_layers and not viewport},
-            "render": render_block(scene.pelage, viewport),
+            "image": {"width": size[0], "height": size[1], "light_layers": scene.pelage.light_layers and final},
+            "render": render_block(scene.pelage, not final),
             "skins": {}, "materials": {}, "grooms": {}, "characters": {}, "lights": {}}
         self._lights(scene, stage)
         hosts = {loose.surface for loose in stage.loose}
@@ -157,18 +163,15 @@ class SceneWriter:
             self.document["characters"][self.name("characters", wanted)] = {"parts": parts}
 
     def _lights(self, scene: bpy.types.Scene, stage: Stage) -> None:
-        world = world_block(scene.world, self.folder, self.notes)
+        world = world_block(scene.world, self.folder, self.notes, scene.frame_current)
         if world is not None:
             if scene.render.film_transparent:
                 world["visible"] = False
             self.document["lights"][self.name("lights", "world")] = world
         for key, blocks in stage.lights.items():
-            block = dict(blocks[0])
+            block = moving(blocks, ("position", "look_at", "direction"))
             if block["type"] == "spot":
                 block["file"] = self.folder.put(f"spot {block['cone']:.3f}.exr", exr.encode({"Y": spot_image(block["cone"])}))
-            for name in ("position", "look_at", "direction"):
-                if name in block and blocks[-1].get(name, block[name]) != block[name]:
-                    block[name] = {"keys": {"1": block[name], "2": blocks[-1][name]}}
             self.document["lights"][self.name("lights", stage.names[key])] = block
 
     def _plain(self, items: list[Item]) -> None:
@@ -234,6 +237,7 @@ class SceneWriter:
         part: Block = {"skin": skin, "material": material, "grooms": {}}
         for coat in coats:
             if coat.enabled:
+                self.check()
                 part["grooms"] |= groom.write_coat(self, item, skin, coat)
         if coats and hair:
             # The rest pose of these strands is not the rest pose of the skin: they stay where they are.
