@@ -333,12 +333,19 @@ class Coats(unittest.TestCase):
             bpy.ops.scene.pelage_write_yaml()  # the file has no name yet
         furry("FLUFFY")
         picture = render(samples=2)
-        bpy.context.scene.pelage.viewport_samples = 2
         path = OUTPUT / "Fell ö 'x'.blend"
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
         self.assertEqual(bpy.ops.scene.pelage_write_yaml(), {"FINISHED"})
         folder = OUTPUT / "Fell ö 'x'_pelage"
         text = (folder / "scene.yaml").read_text()
+        bpy.ops.scene.pelage_write_yaml()
+        self.assertEqual([path.name for path in folder.glob("*.yaml")], ["scene.yaml"])
+        (folder / "scene.yaml").write_text(text.replace("comb", "curl", 1))
+        for _ in range(2):
+            bpy.ops.scene.pelage_write_yaml()
+            self.assertEqual(sorted(path.name for path in folder.glob("*.yaml")), ["scene 2.yaml", "scene.yaml"])
+        self.assertEqual((folder / "scene 2.yaml").read_text(), text)
+        (folder / "scene.yaml").write_text(text)
         self.assertIn("  - comb: {", text)
         subprocess.run([preferences.program(), "render", folder / "scene.yaml", "-o", folder / "a.exr", "--quiet"], check=True)
         written = exr.read(folder / "a.exr")[1]
