@@ -95,7 +95,7 @@ def geometry_modifiers(ob: bpy.types.Object, render: bool) -> list[bpy.types.Mod
 
 
 def subdivision(ob: bpy.types.Object, render: bool) -> bpy.types.Modifier | None:
-    """The Catmull-Clark modifier of an object; None unless it is the last, only deforming ones precede it, and Pelage can do it."""
+    """The Catmull-Clark modifier of an object, if it is the last, only deforming ones precede it, and Pelage can do it."""
     found = geometry_modifiers(ob, render)
     if ob.type != "MESH" or not found or found[-1].type != "SUBSURF" or any(m.type not in DEFORMING for m in found[:-1]):
         return None
