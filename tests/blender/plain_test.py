@@ -190,8 +190,21 @@ class Files(unittest.TestCase):
             self.assertEqual(pathlib.Path(name, "a").read_text(), "other")
 
 
+    def test_texts_are_made_only_when_their_arrays_change(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder, path = files.SceneFolder(pathlib.Path(name)), pathlib.Path(name, "a")
+            folder.put_made("a", [np.zeros((2, 3)), None], lambda: "first")
+            folder.put_made("a", [np.zeros((2, 3)), None], lambda: self.fail("made again"))
+            for other in ([np.zeros((3, 2)), None], [np.ones((2, 3)), None], [np.zeros((2, 3)), "slot"]):
+                folder.put_made("a", other, lambda: str(other))
+                self.assertEqual(path.read_text(), str(other))
+            folder.put("a", "text")
+            folder.put_made("a", other, lambda: "last")
+            self.assertEqual(path.read_text(), "last")
+
+
 class Process(unittest.TestCase):
-    def test_a_mistake_is_told_by_keys(self):
+    def test_a_mistake_is_named_by_its_keys(self):
         with tempfile.TemporaryDirectory() as name:
             scene = pathlib.Path(name) / "scene.yaml"
             scene.write_text(files.document_text({"pelage": 1, "lights": {"key": {"type": "point", "powr": 1}}}))

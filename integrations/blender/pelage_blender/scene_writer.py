@@ -89,9 +89,13 @@ class SceneWriter:
         return light_name(wanted, taken) if block == "lights" else pelage_name(wanted, taken)
 
     def file(self, name: str, content: str | bytes) -> str:
+        return self.folder.put(self.file_name(name), content)
+
+    def file_name(self, name: str) -> str:
+        """A name for a file that no other file of the scene has."""
         stem, _, ending = name.rpartition(".")
         safe = "".join(c if c.isascii() and (c.isalnum() or c in "-_") else "_" for c in stem)[:60]
-        return self.folder.put(pelage_name(safe, self.files) + "." + ending, content)
+        return pelage_name(safe, self.files) + "." + ending
 
     def material(self, kind: str, material: bpy.types.Material | None) -> str:
         key = kind, None if material is None else material.name_full
@@ -107,8 +111,12 @@ class SceneWriter:
         """Writes a mesh and its poses; the name of the skin."""
         cage, poses = placed
         name = self.name("skins", wanted)
-        text = obj_text(poses[0] if rest is None else rest, cage.sizes, cage.corners, cage.uvs, groups, cage.colors)
-        block: Block = {"mesh": self.file(f"{name}.obj", text), "scheme": cage.scheme}
+        first = poses[0] if rest is None else rest
+        parts = [entry for group in groups or [] for entry in group]
+        file = self.folder.put_made(self.file_name(f"{name}.obj"),
+                                    [first, cage.sizes, cage.corners, cage.uvs, cage.colors, *parts],
+                                    lambda: obj_text(first, cage.sizes, cage.corners, cage.uvs, groups, cage.colors))
+        block: Block = {"mesh": file, "scheme": cage.scheme}
         if cage.scheme != "none":
             block["boundary"] = cage.boundary
         moves = any(not np.array_equal(poses[0], pose) for pose in poses[1:])
@@ -116,7 +124,7 @@ class SceneWriter:
             kept = poses if moves else poses[:1]
             base = self.file(f"{name} pose.obj", "")[:-4]
             for number, pose in enumerate(kept, 1):
-                self.folder.put(f"{base}.{number}.obj", vertex_text(pose))
+                self.folder.put_made(f"{base}.{number}.obj", [pose], lambda pose=pose: vertex_text(pose))
             block["poses"] = {"files": f"{base}.%d.obj", "first": 1, "count": len(kept),
                               "frames_per_pose": 1 / max(len(kept) - 1, 1)}
         self.document["skins"][name] = block
