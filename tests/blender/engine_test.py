@@ -170,9 +170,7 @@ class Engine(unittest.TestCase):
                 ob.keyframe_insert("location", frame=frame)
         scene.render.use_motion_blur, scene.render.motion_blur_shutter, scene.pelage.motion_keys = True, 1, 3
         scene.cycles.motion_blur_position = "START"
-        folder = OUTPUT / "moving"
-        folder.mkdir()
-        document = scene_writer.SceneWriter(files.SceneFolder(folder)).write(
+        document = scene_writer.SceneWriter(files.SceneFolder(OUTPUT)).write(
             bpy.context.evaluated_depsgraph_get(), (8, 8), lambda whole, part: scene.frame_set(whole, subframe=part))
         for block in (document["camera"], document["lights"]["light"]):
             places = {key: place[0] for key, place in block["position"]["keys"].items()}
@@ -203,8 +201,7 @@ class Engine(unittest.TestCase):
         camera()
         set_world(1)
         whole = render(samples=4)
-        render_settings = scene.render
-        render_settings.use_border = True
+        render_settings, scene.render.use_border = scene.render, True
         render_settings.border_min_x, render_settings.border_max_x = 0.25, 0.75
         render_settings.border_min_y, render_settings.border_max_y = 0.5, 1.0
         framed = render()
