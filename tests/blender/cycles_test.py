@@ -6,6 +6,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import bmesh
 import bpy
 import numpy as np
 from inside import camera, empty_scene, grey_plane, hairy, light, material, mean, render, run, set_world
@@ -88,11 +89,24 @@ class Cameras(unittest.TestCase):
             self.assertLess(self.differing(), 0.01, (size, values))
 
     def test_a_cage_and_polygons(self):
-        for levels in (0, 4):
+        """A cage of two materials is one surface, and sharp corners are those of Blender."""
+        for levels, sharp in ((0, False), (4, False), (4, True)):
             self.scene()
             bpy.ops.mesh.primitive_cube_add()
-            bpy.context.object.modifiers.new("smooth", "SUBSURF").render_levels = levels
-            self.assertLess(self.differing(), 0.01)
+            ob = bpy.context.object
+            ob.modifiers.new("smooth", "SUBSURF").render_levels = levels
+            if sharp:
+                made = bmesh.new()
+                made.from_mesh(ob.data)
+                crease = made.verts.layers.crease.verify()
+                for vertex in made.verts:
+                    vertex[crease] = 1.0
+                made.to_mesh(ob.data)
+            else:
+                for name in ("one", "other"):
+                    ob.data.materials.append(material(name=name))
+                ob.data.polygons[5].material_index = 1
+            self.assertLess(self.differing(), 0.01, (levels, sharp))
 
     def test_instances_text_and_hidden_emitters(self):
         self.scene()
@@ -122,7 +136,8 @@ class Cameras(unittest.TestCase):
         dof = bpy.context.scene.camera.data.dof
         dof.use_dof, dof.focus_distance, dof.aperture_fstop = True, 3, 0.1
         ours, truth = render("PELAGE", 48), render("CYCLES", 48)
-        sharp = render("PELAGE", 4) if not setattr(dof, "use_dof", False) else None
+        dof.use_dof = False
+        sharp = render("PELAGE", 4)
         blur = np.abs(truth["A"] - sharp["A"]).mean()
         # Binomial noise of both, 0.06 in blurred pixels, is a fifth of the blur.
         self.assertLess(np.abs(ours["A"] - truth["A"]).mean(), 0.3 * blur)

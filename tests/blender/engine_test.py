@@ -8,9 +8,9 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path, render, run,
-                    set_world)
-from pelage_blender import hair_particles
+from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
+                    render, run, set_world)
+from pelage_blender import files, hair_particles, meshes, scene_writer
 
 
 class Engine(unittest.TestCase):
@@ -128,6 +128,55 @@ class Engine(unittest.TestCase):
         # Partly covered pixels of both are binomial with 64 samples: at most 0.06, and 0.02 on average over a column of 8.
         np.testing.assert_allclose(blurred["A"].mean(axis=0), truth["A"].mean(axis=0), atol=0.02)
 
+    def test_a_mesh_with_another_topology_stays_where_it_is(self):
+        empty_scene()
+        bpy.ops.mesh.primitive_monkey_add()
+        ob = bpy.context.object
+        modifier = ob.modifiers.new("fewer", "DECIMATE")
+        modifier.ratio = 0.3
+        graph = bpy.context.evaluated_depsgraph_get()
+        evaluated = ob.evaluated_get(graph)
+        cage = meshes.cage_of(evaluated, evaluated.data, False, False, [])
+        np.testing.assert_array_equal(meshes.pose_of(evaluated, evaluated.data, cage), cage.points)
+        modifier.ratio = 1
+        evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        self.assertGreater(len(evaluated.data.vertices), cage.topology[0])
+        self.assertIsNone(meshes.pose_of(evaluated, evaluated.data, cage))
+
+    def test_smooth_polygons_of_two_materials_have_no_seam(self):
+        pictures = []
+        for slots in (1, 2):
+            empty_scene(24, 24)
+            camera((0, -4, 0))
+            light("SUN", (3, -3, 3), energy=3)
+            bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=6)
+            bpy.ops.object.shade_smooth()
+            ob = bpy.context.object
+            for name in "ab":
+                ob.data.materials.append(material(name=name, Color=(0.5, 0.5, 0.5, 1)))
+            for polygon in ob.data.polygons:
+                polygon.material_index = int(polygon.center.z > 0) * (slots - 1)
+            pictures.append(render(samples=4)["R"])
+        np.testing.assert_allclose(*pictures, atol=1e-3)  # halves
+
+    def test_every_motion_step_of_the_camera_and_the_lights_is_written(self):
+        scene = empty_scene(8, 8)
+        grey_plane()
+        camera()
+        light("SPOT", energy=100)
+        for ob in (bpy.data.objects["camera"], bpy.data.objects["light"]):
+            for frame, x in ((1, 0), (1.5, 1), (2, 0)):
+                ob.location.x = x
+                ob.keyframe_insert("location", frame=frame)
+        scene.render.use_motion_blur, scene.render.motion_blur_shutter, scene.pelage.motion_keys = True, 1, 3
+        scene.cycles.motion_blur_position = "START"
+        document = scene_writer.SceneWriter(files.SceneFolder(OUTPUT)).write(
+            bpy.context.evaluated_depsgraph_get(), (8, 8), lambda whole, part: scene.frame_set(whole, subframe=part))
+        for block in (document["camera"], document["lights"]["light"]):
+            places = {key: place[0] for key, place in block["position"]["keys"].items()}
+            self.assertEqual(places, {"1": 0, "1.5": 1, "2": 0})
+        self.assertGreater(mean(render(samples=1)), 0)
+
     def test_an_image_lights_the_world(self):
         scene = empty_scene()
         tree = scene.world.node_tree
@@ -152,8 +201,7 @@ class Engine(unittest.TestCase):
         camera()
         set_world(1)
         whole = render(samples=4)
-        render_settings = scene.render
-        render_settings.use_border = True
+        render_settings, scene.render.use_border = scene.render, True
         render_settings.border_min_x, render_settings.border_max_x = 0.25, 0.75
         render_settings.border_min_y, render_settings.border_max_y = 0.5, 1.0
         framed = render()
@@ -163,11 +211,25 @@ class Engine(unittest.TestCase):
         render_settings.use_crop_to_border = True
         np.testing.assert_array_equal(render()["R"], whole["R"][:24, 16:48])
 
+    def test_sizes_are_rounded_as_in_blender(self):
+        scene = empty_scene(100, 90)
+        camera()
+        set_world(1)
+        for percentage in (29, 57):
+            scene.render.resolution_percentage = percentage
+            render(samples=1)  # Blender refuses another size
+        scene.render.resolution_percentage = 100
+        scene.render.use_border = True
+        scene.render.border_min_x, scene.render.border_max_x = 0.29, 0.7
+        scene.render.border_min_y, scene.render.border_max_y = 0.1, 0.57
+        ours, truth = render(samples=1), render("CYCLES", 1)
+        np.testing.assert_array_equal(ours["R"] > 0, truth["R"] > 0)
+
     def test_layers_of_lights_add_up(self):
         scene = empty_scene(24, 24)
         grey_plane()
         camera()
-        light("SUN", energy=2, name="Sonne über 'Köln' \"1\"")
+        light("SUN", energy=2, name="Sonne über 'Köln' \"1\", hinter den Häusern am anderen Ufer")  # 62 bytes
         light("POINT", (0, 1, 1), energy=20, name="point.001")
         set_world(0.3)
         scene.pelage.light_layers = scene.pelage.data_layers = True
@@ -186,7 +248,7 @@ class Engine(unittest.TestCase):
         self.assertAlmostEqual(float(picture["ViewLayer.Depth.Z"][12, 12]), 29 ** 0.5, delta=29 ** 0.5 * 0.029 * 2.5)
 
     def test_materials_and_images_reach_the_picture(self):
-        scene = empty_scene(16, 16)
+        empty_scene(16, 16)
         plane = grey_plane(8)
         image = bpy.data.images.new("Bild mit 'Umlaut ä'", 4, 4, float_buffer=True)
         image.pixels.foreach_set(np.tile(np.array([0.6, 0.3, 0.1, 1], np.float32), 16))
@@ -200,7 +262,26 @@ class Engine(unittest.TestCase):
         # In a white room, a diffuse surface has its own colour; the half floats of the picture have 11 bits.
         for channel, value in zip("RGB", (0.6, 0.3, 0.1)):
             self.assertAlmostEqual(picture[channel].mean(), value, delta=0.004)
-        del scene
+
+    def test_a_sequence_of_images_follows_the_frame(self):
+        scene = empty_scene(8, 8)
+        for frame, value in ((1, 0.2), (2, 0.8)):
+            (OUTPUT / f"seq{frame:04d}.exr").write_bytes(exr.encode({c: np.full((4, 4), value, np.float32) for c in "RGB"}))
+        plane = grey_plane(8)
+        tree = plane.data.materials[0].node_tree
+        node = tree.nodes.new("ShaderNodeTexImage")
+        node.image = bpy.data.images.load(str(OUTPUT / "seq0001.exr"))
+        node.image.source = "SEQUENCE"
+        user = node.image_user
+        user.frame_duration, user.frame_start, user.use_auto_refresh = 2, 1, True
+        tree.links.new(node.outputs["Color"], tree.nodes["Diffuse BSDF"].inputs["Color"])
+        camera((0, 0, 3))
+        set_world(1)
+        for frame, value, cyclic in ((1, 0.2, False), (2, 0.8, False), (5, 0.2, True), (0, 0.2, False)):
+            user.use_cyclic = cyclic
+            scene.frame_set(frame)
+            # In a white room, a diffuse surface has its own colour; four samples of 64 pixels have a noise of 0.01.
+            self.assertAlmostEqual(mean(render(samples=4)), value, delta=0.05)
 
     def test_tiles_of_an_image(self):
         empty_scene(16, 16)
@@ -288,6 +369,17 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()
         self.assertIn("camera", str(caught.exception).lower())
+
+    def test_a_layout_of_memory_with_other_points_is_noticed(self):
+        keys = np.zeros((30, 5, 3), np.float32)
+        system = mock.Mock()
+        system.co_hair.return_value = (0, 0, 0)
+        hair_particles._checked(None, system, range(30), keys, np.full(30, 4))
+        for value in (1, np.nan):
+            wrong = keys.copy()
+            wrong[0, 2, 1] = value
+            with self.assertRaises(OSError):
+                hair_particles._checked(None, system, range(30), wrong, np.full(30, 4))
 
     def test_a_missing_program_and_a_crash_are_errors(self):
         empty_scene(16, 16)

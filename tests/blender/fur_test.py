@@ -10,6 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
+from mathutils import Vector
 from inside import OUTPUT, camera, empty_scene, exr, hairy, left_folders, new_path, render, run, set_world
 from pelage_blender import coat_presets, files, fur_operators, meshes, preferences, schema, scene_writer
 
@@ -53,7 +54,7 @@ class Schema(unittest.TestCase):
         listed = [key for key in blocks["groom"]["keys"] if key["name"] == "operators"][0]["blocks"]
         self.assertEqual(set(operators), set(listed) - schema.UNWANTED)
         for name, block in operators.items():
-            self.assertEqual(block.help, blocks[name]["help"].replace("`", "`"))
+            self.assertEqual(block.help, blocks[name]["help"])
             truth = {key["name"]: key for key in blocks[name]["keys"]}
             for key in block.keys:
                 if key.name not in truth:
@@ -75,7 +76,7 @@ class Schema(unittest.TestCase):
         coat = ob.pelage.coats[0]
         coat.operators.clear()
         for name in schema.load(preferences.program()):
-            if name not in ("swirl", "avoid"):  # these need a place or a curve of their own
+            if name != "swirl":  # it needs a place of its own
                 self.assertEqual(bpy.ops.object.pelage_operator_add(kind=name), {"FINISHED"})
         render(samples=1)
 
@@ -255,6 +256,39 @@ class Coats(unittest.TestCase):
         ob.scale = (-1, 1, 1)
         self.assertAlmostEqual(render()["A"].mean() / plain, 1, delta=0.05)  # other strands, and a ball without hair has 0.6
 
+    def test_a_mirrored_coat_is_the_mirror_of_the_coat(self):
+        """What turns the rest pose into the pose of the frame turns the direction of the comb as the object does."""
+        ob = furry()
+        comb = next(o for o in ob.pelage.coats[0].operators if o.kind == "comb")
+        comb["direction"] = [1.0, 2.0, 3.0]
+        ob.rotation_euler = (0.3, 0.4, 0.5)
+        for scale in ((1, 1, 1), (-1, 1, 1), (1, -2, 1), (1, 1, -1), (-1, -1, -1), (-1, 1, -1)):
+            ob.scale = scale
+            bpy.context.view_layer.update()
+            groom = next(iter(document()["grooms"].values()))
+            folder = OUTPUT / f"document{len(os.listdir(OUTPUT)) - 1}"
+            direction = next(o["comb"]["direction"] for o in groom["operators"] if "comb" in o)
+            rest, pose = (np.array([line.split()[1:4] for line in path.read_text().splitlines() if line.startswith("v ")], float)
+                          for path in (folder / "Sphere.obj", next(folder.glob("*pose.1.obj"))))
+            turn = np.linalg.lstsq(rest, pose, rcond=None)[0].T
+            np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-5, err_msg=str(scale))
+            self.assertAlmostEqual(np.linalg.det(turn), 1, places=4)
+            stretch = np.array([1.0, 2.0, 3.0]) / np.abs(scale)  # the direction is one of the size in the world
+            expected = ob.matrix_world.to_3x3() @ Vector(stretch)
+            np.testing.assert_allclose(turn @ direction, (expected.x, expected.z, -expected.y), atol=1e-4, err_msg=str(scale))
+
+    def test_a_map_that_is_gone_is_an_error(self):
+        ob = furry()
+        coat = ob.pelage.coats[0]
+        coat.use_density, coat.density.group = True, ob.vertex_groups.new(name="back").name
+        self.assertIn("density", next(iter(document()["grooms"].values())))
+        ob.vertex_groups["back"].name = "Back"
+        with self.assertRaisesRegex(ValueError, "'density' on 'Sphere' is the vertex group 'back'"):
+            document()
+        coat.density.source = "IMAGE"
+        with self.assertRaisesRegex(ValueError, "'density' on 'Sphere' has no image"):
+            document()
+
     def test_fur_is_blurred_like_its_skin(self):
         ob = furry("LONG", 1000, 40)
         scene = bpy.context.scene
@@ -299,12 +333,19 @@ class Coats(unittest.TestCase):
             bpy.ops.scene.pelage_write_yaml()  # the file has no name yet
         furry("FLUFFY")
         picture = render(samples=2)
-        bpy.context.scene.pelage.viewport_samples = 2
         path = OUTPUT / "Fell ö 'x'.blend"
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
         self.assertEqual(bpy.ops.scene.pelage_write_yaml(), {"FINISHED"})
         folder = OUTPUT / "Fell ö 'x'_pelage"
         text = (folder / "scene.yaml").read_text()
+        bpy.ops.scene.pelage_write_yaml()
+        self.assertEqual([path.name for path in folder.glob("*.yaml")], ["scene.yaml"])
+        (folder / "scene.yaml").write_text(text.replace("comb", "curl", 1))
+        for _ in range(2):
+            bpy.ops.scene.pelage_write_yaml()
+            self.assertEqual(sorted(path.name for path in folder.glob("*.yaml")), ["scene 2.yaml", "scene.yaml"])
+        self.assertEqual((folder / "scene 2.yaml").read_text(), text)
+        (folder / "scene.yaml").write_text(text)
         self.assertIn("  - comb: {", text)
         subprocess.run([preferences.program(), "render", folder / "scene.yaml", "-o", folder / "a.exr", "--quiet"], check=True)
         written = exr.read(folder / "a.exr")[1]
@@ -319,7 +360,7 @@ class Coats(unittest.TestCase):
         bpy.ops.object.pelage_fur_add(preset="SHORT")
         self.assertAlmostEqual(ob.pelage.coats[1].operators[0]["value"], 2 * first, places=5)
         self.assertEqual(ob.pelage.coats[1].name, "Short 2")
-        self.assertIs(fur_operators.active_coat(bpy.context).name == "Short 2", True)
+        self.assertEqual(fur_operators.active_coat(bpy.context).name, "Short 2")
 
 
 if __name__ == "__main__":

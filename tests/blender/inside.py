@@ -16,7 +16,7 @@ from mathutils import Vector
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "integrations" / "blender"))
 import pelage_blender  # noqa: E402
-from pelage_blender import exr  # noqa: E402
+from pelage_blender import exr, files  # noqa: E402
 
 OUTPUT = pathlib.Path(tempfile.mkdtemp(prefix="pelage-test-"))
 atexit.register(shutil.rmtree, OUTPUT, ignore_errors=True)
@@ -24,10 +24,12 @@ shots = 0
 
 
 def run():
-    """Runs the tests of the main module; the exit code of Blender says how they went."""
+    """Runs the tests of the main module, or those that the arguments name; the exit code of Blender says how they went."""
     pelage_blender.register()
     import __main__
-    suite = unittest.defaultTestLoader.loadTestsFromModule(__main__)
+    names = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    loader = unittest.defaultTestLoader
+    suite = loader.loadTestsFromNames(names, __main__) if names else loader.loadTestsFromModule(__main__)
     result = unittest.TextTestRunner(verbosity=2).run(suite)
     sys.stdout.flush()
     sys.exit(0 if result.wasSuccessful() else 1)
@@ -35,7 +37,7 @@ def run():
 
 def left_folders():
     """Folders that the add-on of this process has left behind."""
-    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith(f"pelage-blender-{os.getpid()}-")]
+    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith(f"{files.owner_prefix()}{os.getpid()}-")]
 
 
 def empty_scene(width=48, height=48, new=True):
@@ -117,7 +119,10 @@ def new_path(ending):
 
 
 def render(engine=None, samples=None, multilayer=False, animation=False):
-    """Renders the scene; returns the channels of the picture by name, top row first. With `animation`: one such dict per frame."""
+    """Renders the scene; returns the channels of the picture by name, top row first.
+
+    With `animation`: one such dict per frame.
+    """
     scene = bpy.context.scene
     scene.render.engine = engine or scene.render.engine
     if samples is not None:

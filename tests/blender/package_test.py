@@ -41,8 +41,8 @@ class Package(unittest.TestCase):
             (folder / "scripts" / "addons").mkdir(parents=True)
             (folder / "config").mkdir()
             result = subprocess.run([shutil.which("blender"), "-b", "--factory-startup", "--python-exit-code", "7", "-P",
-                                     str(folder / "steps.py")], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                    text=True)
+                                     str(folder / "steps.py")], cwd=folder, env=environment, stdout=subprocess.PIPE,
+                                    stderr=subprocess.STDOUT, text=True, timeout=300)
             self.assertEqual(result.returncode, 0, result.stdout)
             self.assertNotIn("Error", result.stdout)
             self.assertTrue((folder / "out" / "Ratte ü '#.png").exists(), result.stdout)

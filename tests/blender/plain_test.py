@@ -19,8 +19,8 @@ ADDON = ROOT / "integrations" / "blender" / "pelage_blender"
 package = types.ModuleType("addon")
 package.__path__ = [str(ADDON)]
 sys.modules["addon"] = package
-axes, exr, files, hair_color, process = (importlib.import_module(f"addon.{name}")
-                                         for name in ("axes", "exr", "files", "hair_color", "process"))
+axes, exr, files, hair_color, process, schema = (importlib.import_module(f"addon.{name}")
+                                                 for name in ("axes", "exr", "files", "hair_color", "process", "schema"))
 PROGRAM = os.environ.get("PELAGE_PROGRAM", "pelage")
 
 
@@ -97,6 +97,40 @@ class Exr(unittest.TestCase):
                 exr.read(path)
 
 
+    def test_a_damaged_header_is_an_error(self):
+        """No byte makes the reader crash, or run or allocate without end."""
+        data = exr.encode({"R": np.zeros((4, 4), np.float32)})
+        path = self.path / "a.exr"
+        for place in range(exr.read_header(data).end):
+            for value in (0x00, 0x7F, 0xFF):
+                path.write_bytes(data[:place] + bytes([value]) + data[place + 1:])
+                try:
+                    exr.read(path)
+                except exr.ExrError:
+                    pass
+        size = data.index(b"chlist\0") + len("chlist\0")
+        for value in (-20, 2**31 - 1):
+            with self.assertRaisesRegex(exr.ExrError, "'channels'"):
+                exr.read_header(data[:size] + value.to_bytes(4, "little", signed=True) + data[size + 4:])
+
+
+class Schema(unittest.TestCase):
+    def test_another_program_is_an_error_and_is_not_asked_each_time(self):
+        with tempfile.TemporaryDirectory() as name:
+            program = pathlib.Path(name) / "program"
+            program.write_text(f"#!/bin/sh\necho >> {name}/asked\n")
+            program.chmod(0o755)
+            for _ in range(3):
+                with self.assertRaisesRegex(process.PelageFailed, "not a program pelage"):
+                    schema.load(str(program))
+            self.assertEqual((pathlib.Path(name) / "asked").read_text(), "\n")
+            with mock.patch.object(schema, "FAILURE_S", 0), self.assertRaises(process.PelageFailed):
+                schema.load(str(program))
+            self.assertEqual((pathlib.Path(name) / "asked").read_text(), "\n\n")
+            program.write_text(f"#!/bin/sh\nexec '{os.path.abspath(PROGRAM)}' \"$@\"\n")
+            self.assertIn("comb", schema.load(str(program)))
+
+
 class Files(unittest.TestCase):
     def test_a_line_leads_to_its_keys(self):
         text = files.document_text({"a": 1, "grooms": {"coat \"ä\": {": {"operators": [{"length": {"value": 2}},
@@ -109,6 +143,13 @@ class Files(unittest.TestCase):
     def test_names_are_different_and_without_dots(self):
         taken = set()
         self.assertEqual([files.pelage_name(n, taken) for n in ("a.1", "a_1", "a.1", " ")], ["a_1", "a_1 2", "a_1 3", "unnamed"])
+
+    def test_names_of_lights_leave_room_for_those_of_lobes(self):
+        taken = set()
+        names = [files.light_name("ä" * 60, taken) for _ in range(12)]
+        self.assertEqual(len(set(names)), 12)
+        self.assertLessEqual(max(len(f"ViewLayer.{name}.secondary.R".encode()) for name in names), 64)
+        self.assertEqual(names[11], "ä" * 18 + " 12")
 
     def test_meshes_and_strands_are_those_of_pelage(self):
         with tempfile.TemporaryDirectory() as name:
@@ -131,10 +172,12 @@ class Files(unittest.TestCase):
             mine = files.new_folder()
             gone = subprocess.Popen(["true"])
             gone.wait()
-            (pathlib.Path(name) / f"{files.PREFIX}{gone.pid}-abc").mkdir()
-            (pathlib.Path(name) / f"{files.PREFIX}other").mkdir()
+            (pathlib.Path(name) / f"{files.owner_prefix()}{gone.pid}-abc").mkdir()
+            others = [f"{files.PREFIX}other", f"{files.PREFIX}000000000000-{gone.pid}-abc"]  # the second of another machine
+            for other in others:
+                (pathlib.Path(name) / other).mkdir()
             files.remove_stale_folders()
-            self.assertEqual(sorted(os.listdir(name)), sorted([os.path.basename(mine), f"{files.PREFIX}other"]))
+            self.assertEqual(sorted(os.listdir(name)), sorted([os.path.basename(mine), *others]))
 
     def test_only_changes_are_written(self):
         with tempfile.TemporaryDirectory() as name:
@@ -147,8 +190,21 @@ class Files(unittest.TestCase):
             self.assertEqual(pathlib.Path(name, "a").read_text(), "other")
 
 
+    def test_texts_are_made_only_when_their_arrays_change(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder, path = files.SceneFolder(pathlib.Path(name)), pathlib.Path(name, "a")
+            folder.put_made("a", [np.zeros((2, 3)), None], lambda: "first")
+            folder.put_made("a", [np.zeros((2, 3)), None], lambda: self.fail("made again"))
+            for other in ([np.zeros((3, 2)), None], [np.ones((2, 3)), None], [np.zeros((2, 3)), "slot"]):
+                folder.put_made("a", other, lambda: str(other))
+                self.assertEqual(path.read_text(), str(other))
+            folder.put("a", "text")
+            folder.put_made("a", other, lambda: "last")
+            self.assertEqual(path.read_text(), "last")
+
+
 class Process(unittest.TestCase):
-    def test_a_mistake_is_told_by_keys(self):
+    def test_a_mistake_is_named_by_its_keys(self):
         with tempfile.TemporaryDirectory() as name:
             scene = pathlib.Path(name) / "scene.yaml"
             scene.write_text(files.document_text({"pelage": 1, "lights": {"key": {"type": "point", "powr": 1}}}))
@@ -156,6 +212,19 @@ class Process(unittest.TestCase):
                 process.run_render([PROGRAM, "render", str(scene), "-o", f"{name}/a.exr", "--progress", "json"], scene,
                                    lambda: False, lambda stage, fraction: None)
         self.assertIn("lights.key.powr: unknown key 'powr' in point; did you mean 'power'?", str(caught.exception))
+
+    def test_the_wanted_program_is_the_one_that_runs(self):
+        with mock.patch.dict(os.environ, {"PELAGE_PROGRAM": sys.executable}):
+            self.assertEqual(process.find_program(), os.path.abspath(sys.executable))
+            with self.assertRaisesRegex(process.PelageFailed, "preferences"):
+                process.find_program("/nowhere/pelage")
+            self.assertEqual(process.find_program(os.path.relpath("/bin/sh")), "/bin/sh")
+
+    def test_odd_lines_of_progress_do_no_harm(self):
+        lines = '{"stage": "grow", "done": null}\n{"stage": "render"}\n[1]\nlast\n'
+        output = process.Output(mock.Mock(stderr=lines.splitlines(keepends=True)))
+        output.join()
+        self.assertEqual((output.stage, output.fraction, output.mistakes), ("render", 0, ["[1]", "last"]))
 
     def test_cancelling_ends_the_process(self):
         with tempfile.TemporaryDirectory() as name, self.assertRaises(process.Cancelled):

@@ -5,6 +5,8 @@ Timers run the steps, because Blender draws between them. A failed step ends Ble
 """
 import os
 import pathlib
+import signal
+import subprocess
 import sys
 import time
 import traceback
@@ -16,7 +18,7 @@ import numpy as np
 from inside import light, pelage_blender
 from pelage_blender import viewport
 
-PATIENCE_S = 150
+PATIENCE_S = 80
 pelage_blender.register()
 
 
@@ -34,9 +36,15 @@ def finished():
     current = session()
     if current is None or current.client is None or current.client.picture is None:
         return False
-    assert not current.status().startswith("pelage"), current.status()
+    assert not current.status().startswith("pelage") or "timed out" in current.status(), current.status()
     state, picture = current.client.state, current.client.picture
     return state.get("done") and picture.version == state["version"] and current.shown == picture.version
+
+
+def children(parent):
+    """Numbers of the programs pelage that a process runs."""
+    listed = subprocess.run(["ps", "-o", "pid=,comm=", "--ppid", str(parent)], stdout=subprocess.PIPE, text=True, check=True)
+    return [int(line.split()[0]) for line in listed.stdout.splitlines() if line.split()[1].startswith("pelage")]
 
 
 def seen(x, y):
@@ -106,6 +114,19 @@ def steps():
         assert len(bpy.data.objects["Sphere"].pelage.coats) == 1
     yield finished
     assert session() is first  # the program is still the same
+
+    coat = bpy.data.objects["Sphere"].pelage.coats[0]
+    coat.use_density, coat.density.group = True, "gone"
+    bpy.data.objects["Sphere"].update_tag()
+    yield lambda: "'gone'" in session().status()
+    coat.use_density = False
+    bpy.data.objects["Sphere"].update_tag()
+    yield lambda: not session().problem and finished()
+    os.kill(children(process.pid)[0], signal.SIGSEGV)
+    yield lambda: first.client.ended and "signal 11" in session().status()
+    bpy.data.objects["Sphere"].update_tag()  # an edit starts the program again
+    yield lambda: first.client.process is not process and finished()
+    process = first.client.process
 
     space.shading.type = "SOLID"
     yield lambda: session() is None

@@ -71,10 +71,14 @@ def scene_camera(camera: bpy.types.Object, depsgraph: bpy.types.Depsgraph, size:
     return placement(camera.matrix_world, 10.0) | optics(camera, projection, notes)
 
 
-def moving(first: dict[str, Any], last: dict[str, Any]) -> dict[str, Any]:
-    """A camera that moves from frame 1 to frame 2 of the Pelage scene, which are the ends of the shutter."""
-    result = dict(first)
-    for key in ("position", "look_at", "up", "fov", "orthographic"):
-        if key in first and first[key] != last.get(key, first[key]):
-            result[key] = {"keys": {"1": first[key], "2": last[key]}}
+def moving(blocks: list[dict[str, Any]], names: tuple[str, ...]) -> dict[str, Any]:
+    """A camera or a light that moves from frame 1 to frame 2 of the Pelage scene, which are the ends of the shutter.
+
+    blocks: one per motion key; the rest is the first's.
+    """
+    result = dict(blocks[0])
+    for name in names:
+        values = [block.get(name, result[name]) for block in blocks] if name in result else []
+        if any(value != values[0] for value in values):
+            result[name] = {"keys": {f"{1 + i / (len(values) - 1):.7g}": value for i, value in enumerate(values)}}
     return result

@@ -11,8 +11,8 @@ from .schema import DIRECTIONS, POINTS
 Color = Sequence[float]
 
 
-def scene_value(key: str, value: Any) -> Any:
-    """A number, text or vector of the panel; directions and points are turned from z up to y up."""
+def scene_value(key: str, value: Any, signs: Sequence[float] = (1.0, 1.0, 1.0)) -> Any:
+    """A number, text or vector of the panel; directions and points are turned from z up to y up, times `signs`."""
     if isinstance(value, str):
         return value
     if isinstance(value, bool):
@@ -21,7 +21,7 @@ def scene_value(key: str, value: Any) -> Any:
         return value
     if isinstance(value, float):
         return numbers([value])[0]
-    return numbers(to_pelage(value)) if key in DIRECTIONS | POINTS else numbers(value)
+    return numbers(to_pelage([a * b for a, b in zip(value, signs)])) if key in DIRECTIONS | POINTS else numbers(value)
 
 
 def from_scene(vector: Sequence[float]) -> tuple[float, float, float]:

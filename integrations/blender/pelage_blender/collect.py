@@ -109,10 +109,11 @@ def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, rende
     stage.items[key] = item
 
 
-def collect(depsgraph: bpy.types.Depsgraph, notes: Notes) -> Stage:
-    """The scene at the present time of the depsgraph."""
+def collect(depsgraph: bpy.types.Depsgraph, notes: Notes, check: Callable[[], None] = lambda: None) -> Stage:
+    """The scene at the present time of the depsgraph; `check` is called before each object, and what it raises ends this."""
     stage, render = Stage(), depsgraph.mode == "RENDER"
     for key, ob, instance in _instances(depsgraph):
+        check()
         if ob.type in SOLID and (instance.show_self or instance.show_particles):
             _add_item(stage, key, ob, instance, render)
         elif ob.type == "CURVES" and instance.show_self:

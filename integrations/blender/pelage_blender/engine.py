@@ -9,6 +9,7 @@ import traceback
 from typing import Any
 
 import bpy
+import numpy as np
 
 from . import exr, passes, preferences, process, viewport
 from .files import SceneFolder, new_folder
@@ -23,8 +24,10 @@ Region = tuple[int, int, int, int]
 
 
 def picture_size(scene: bpy.types.Scene) -> tuple[int, int]:
-    factor = scene.render.resolution_percentage / 100
-    return max(1, int(scene.render.resolution_x * factor)), max(1, int(scene.render.resolution_y * factor))
+    """Width and height in pixels, rounded as Blender does."""
+    render = scene.render
+    return (max(1, render.resolution_x * render.resolution_percentage // 100),
+            max(1, render.resolution_y * render.resolution_percentage // 100))
 
 
 def border(scene: bpy.types.Scene, size: tuple[int, int]) -> Region | None:
@@ -32,8 +35,9 @@ def border(scene: bpy.types.Scene, size: tuple[int, int]) -> Region | None:
     render = scene.render
     if not render.use_border:
         return None
-    x0, x1 = int(render.border_min_x * size[0]), int(render.border_max_x * size[0])
-    y0, y1 = int(render.border_min_y * size[1]), int(render.border_max_y * size[1])
+    # Blender multiplies single floats.
+    x0, x1 = (int(np.float32(side) * np.float32(size[0])) for side in (render.border_min_x, render.border_max_x))
+    y0, y1 = (int(np.float32(side) * np.float32(size[1])) for side in (render.border_min_y, render.border_max_y))
     return x0, size[1] - y1, x1, size[1] - y0
 
 
@@ -57,17 +61,22 @@ class PelageEngine(bpy.types.RenderEngine):
                 self.session = viewport.acquire()
                 viewport.follow(self)
             self.session.write(context, depsgraph)
-        except process.PelageFailed as error:
+        except (process.PelageFailed, OSError) as error:
             self.update_stats("Pelage", str(error))
 
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         if self.session is None:
             return
-        self.session.follow_view(context, depsgraph)
-        self.bind_display_space_shader(depsgraph.scene)
-        self.session.draw(context)
-        self.unbind_display_space_shader()
-        self.update_stats("Pelage", self.session.status())
+        try:
+            self.session.follow_view(context, depsgraph)
+            self.bind_display_space_shader(depsgraph.scene)
+            try:
+                self.session.draw(context)
+            finally:
+                self.unbind_display_space_shader()
+            self.update_stats("Pelage", self.session.status())
+        except Exception as error:  # Blender would call again at once, and fill its console
+            self.update_stats("Pelage", f"The picture cannot be drawn: {error}")
 
     def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
         self.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
@@ -90,8 +99,8 @@ class PelageEngine(bpy.types.RenderEngine):
             pass
         except (process.PelageFailed, exr.ExrError, ValueError, OSError, MemoryError) as error:
             self.report({"ERROR"}, f"Pelage: {error}")
-        except Exception:  # a mistake of ours: the user sees where
-            self.report({"ERROR"}, f"Pelage: the add-on has made a mistake:\n{traceback.format_exc()}")
+        except Exception:  # the user sees where
+            self.report({"ERROR"}, f"Pelage: internal error in the add-on:\n{traceback.format_exc()}")
 
     def _render(self, depsgraph: bpy.types.Depsgraph, folder: pathlib.Path) -> None:
         scene = depsgraph.scene
@@ -99,7 +108,7 @@ class PelageEngine(bpy.types.RenderEngine):
         size = picture_size(scene)
         region = border(scene, size)
         self.update_stats("Pelage", "Reading the scene")
-        writer = SceneWriter(SceneFolder(folder))
+        writer = SceneWriter(SceneFolder(folder), self._check)
         writer.write(depsgraph, size, self.frame_set)
         if writer.notes:
             self.report({"INFO"}, "Pelage: without counterpart: " + "; ".join(sorted(writer.notes)))
@@ -113,6 +122,10 @@ class PelageEngine(bpy.types.RenderEngine):
         for warning in result.warnings:
             self.report({"WARNING"}, f"Pelage: {warning}")
         self._show(depsgraph, output, size if region is None else (region[2] - region[0], region[3] - region[1]))
+
+    def _check(self) -> None:
+        if self.test_break():
+            raise process.Cancelled
 
     def _progress(self, stage: str, fraction: float) -> None:
         begin, end = SHARE.get(stage, (0.0, 0.05))
@@ -134,7 +147,7 @@ class PelageEngine(bpy.types.RenderEngine):
         if not result.layers:
             return
         try:
-            passes.fill(result.layers[0].passes, picture, scene.render.film_transparent, lambda line: None)
+            passes.fill(result.layers[0].passes, picture, scene.render.film_transparent)
         finally:
             self.end_result(result, cancel=self.test_break())
 

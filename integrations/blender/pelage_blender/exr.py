@@ -18,6 +18,7 @@ import numpy as np
 MAGIC = 20000630
 TYPES: dict[int, np.dtype] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 ROWS = {0: 1, 2: 1, 3: 16}  # number of rows that are compressed together, by compression
+MAX_RATIO = 1100  # ZIP makes data smaller by a factor of 1032 at most
 Box = tuple[int, int, int, int]
 
 
@@ -73,10 +74,16 @@ def read_header(data: bytes) -> Header:
             name, at = _text(data, at)
             _, at = _text(data, at)
             size, = struct.unpack_from("<i", data, at)
+            if size < 0 or at + 4 + size > len(data):
+                raise ExrError(f"damaged EXR file: the attribute '{name}' has {size} bytes")
             found[name] = data[at + 4:at + 4 + size]
             at += 4 + size
-        return Header(list(_channels(found["channels"])), found["compression"][0], _box(found["dataWindow"]),
-                      _box(found["displayWindow"]), at + 1)
+        header = Header(list(_channels(found["channels"])), found["compression"][0], _box(found["dataWindow"]),
+                        _box(found["displayWindow"]), at + 1)
+        pixel_bytes = sum(kind.itemsize for _, kind in header.channels)
+        if min(header.width, header.height) < 1 or header.width * header.height * pixel_bytes > MAX_RATIO * len(data):
+            raise ExrError(f"damaged EXR file: {header.width} x {header.height} pixels")
+        return header
     except (struct.error, IndexError, KeyError, ValueError) as error:
         raise ExrError(f"damaged EXR file: {error}") from error
 
@@ -101,7 +108,7 @@ def read(path: str | pathlib.Path, wanted: Callable[[str], bool] = lambda name: 
     header = read_header(data)
     try:
         return header, _read_channels(data, header, wanted)
-    except (struct.error, ValueError, zlib.error) as error:
+    except (struct.error, ValueError, IndexError, OverflowError, zlib.error) as error:
         raise error if isinstance(error, ExrError) else ExrError(f"damaged EXR file: {error}") from error
 
 

@@ -7,8 +7,10 @@ import json
 import os
 import pathlib
 import shutil
+import socket
 import struct
 import tempfile
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,15 +19,28 @@ PREFIX = "pelage-blender-"
 """How the names of temporary folders begin."""
 
 
+def owner_prefix() -> str:
+    """How the names of the temporary folders of this machine's processes begin; computers may share a folder for them.
+
+    Containers have numbers of processes of their own, so the name stands for both.
+    """
+    try:
+        space = os.readlink("/proc/self/ns/pid")
+    except OSError:
+        space = ""
+    return PREFIX + hashlib.blake2b(f"{socket.gethostname()} {space}".encode(), digest_size=6).hexdigest() + "-"
+
+
 def new_folder() -> str:
     """A temporary folder whose name says which process it belongs to."""
-    return tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-")
+    return tempfile.mkdtemp(prefix=f"{owner_prefix()}{os.getpid()}-")
 
 
 def remove_stale_folders() -> None:
-    """Removes folders of processes that are gone, which were killed."""
-    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-        owner = path.name[len(PREFIX):].partition("-")[0]
+    """Removes folders of processes of this machine that are gone, which were killed."""
+    prefix = owner_prefix()
+    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+        owner = path.name[len(prefix):].partition("-")[0]
         if owner.isdigit() and not os.path.exists(f"/proc/{owner}") and os.path.exists("/proc/self"):
             shutil.rmtree(path, ignore_errors=True)
 
@@ -117,12 +132,13 @@ class SceneFolder:
     """A folder of files that are written only where their content changes, so that a program that watches them sees edits."""
 
     def __init__(self, path: pathlib.Path) -> None:
-        self.path, self._digests = path, dict[str, bytes]()
+        self.path, self._digests, self._sources = path, dict[str, bytes](), dict[str, bytes]()
 
     def put(self, name: str, content: str | bytes) -> str:
         """Writes a file, whole or not at all, unless it has this content already; returns its name."""
         data = content.encode() if isinstance(content, str) else content
         digest = hashlib.blake2b(data, digest_size=16).digest()
+        self._sources.pop(name, None)
         if self._digests.get(name) != digest:
             temporary = self.path / (name + ".part")
             temporary.write_bytes(data)
@@ -131,12 +147,38 @@ class SceneFolder:
         return name
 
 
-def pelage_name(name: str, taken: set[str]) -> str:
+    def put_made(self, name: str, source: list[Any], make: Callable[[], str]) -> str:
+        """As put(), of a text that depends on arrays and plain values alone: it is made only if one of these has changed.
+
+        Making the text of a mesh takes far longer than comparing its arrays.
+        """
+        digest = hashlib.blake2b(digest_size=16)
+        for part in source:
+            if isinstance(part, np.ndarray):
+                digest.update(f"{part.dtype} {part.shape}".encode())
+                digest.update(np.ascontiguousarray(part).data)
+            else:
+                digest.update(repr(part).encode())
+        if self._sources.get(name) != digest.digest():
+            self.put(name, make())
+            self._sources[name] = digest.digest()
+        return name
+
+
+def light_name(name: str, taken: set[str]) -> str:
+    """The name of a light, short enough for Blender.
+
+    In a multilayer file, a channel has 64 bytes for view layer, light, lobe and letter: ViewLayer.light.secondary.R.
+    """
+    return pelage_name(name, taken, 40)
+
+
+def pelage_name(name: str, taken: set[str], max_bytes: int = 1 << 16) -> str:
     """A name for Pelage that nobody has yet: without dots, which separate names there, and added to `taken`."""
     wanted = "".join("_" if c in ".,\n\r\t" else c for c in name).strip() or "unnamed"
-    result, count = wanted, 1
-    while result in taken:
+    count, ending = 1, ""
+    while (result := wanted.encode()[:max_bytes - len(ending)].decode(errors="ignore") + ending) in taken:
         count += 1
-        result = f"{wanted} {count}"
+        ending = f" {count}"
     taken.add(result)
     return result

@@ -11,7 +11,7 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from . import coat_presets, coat_values, preferences, process, schema
 from .files import SceneFolder
-from .yaml_text import scene_text
+from .yaml_text import scene_text, signed, unchanged_name
 
 PRESETS = tuple((name, look.label, look.help) for name, look in coat_presets.LOOKS.items())
 
@@ -62,7 +62,9 @@ class _OnMesh:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return context.object is not None and context.object.type == "MESH"
+        # What is linked from another file cannot be saved here.
+        ob = context.object
+        return ob is not None and ob.type == "MESH" and ob.library is None
 
 
 class PELAGE_OT_fur_add(_OnMesh, bpy.types.Operator):
@@ -207,7 +209,8 @@ class PELAGE_OT_value_set(_OnMesh, bpy.types.Operator):
 
 
 class PELAGE_OT_write_yaml(bpy.types.Operator):
-    """Write the scene as YAML into a folder beside the .blend, for the program pelage"""
+    """Write the scene as YAML into a folder beside the .blend, for the program pelage: with the samples of final pictures, """ \
+        """at this moment without motion blur, and with what the viewport shows of modifiers, hair and visibility"""
     bl_idname = "scene.pelage_write_yaml"
     bl_label = "Write YAML"
 
@@ -222,12 +225,16 @@ class PELAGE_OT_write_yaml(bpy.types.Operator):
         try:
             folder.mkdir(exist_ok=True)
             writer = SceneWriter(SceneFolder(folder))
-            document = writer.write(context.evaluated_depsgraph_get(), picture_size(context.scene))
-            writer.folder.put("scene.yaml", scene_text(document))
+            document = writer.write(context.evaluated_depsgraph_get(), picture_size(context.scene), final=True, text=None)
+            name = unchanged_name(folder)
+            writer.folder.put(name, signed(scene_text(document)))
         except (OSError, ValueError) as error:
             self.report({"ERROR"}, f"Pelage: {error}")
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Written: {folder / 'scene.yaml'}")
+        if name != "scene.yaml":
+            self.report({"WARNING"}, f"scene.yaml was edited and stays as it is. Written: {folder / name}")
+        else:
+            self.report({"INFO"}, f"Written: {folder / name}")
         return {"FINISHED"}
 
 

@@ -100,8 +100,17 @@ def groups_of(ob: bpy.types.Object) -> list[str]:
 
 
 def rest_scale(item: Item) -> np.ndarray:
-    """Scale of an object: at rest, a coat is as large as in the world."""
-    return np.array(item.matrix.to_scale(), np.float64)
+    """Scale of an object (3,): at rest, a coat is as large as in the world; negative x: the object is mirrored.
+
+    Which axis is mirrored makes no difference, because the directions of operators are mirrored too.
+    """
+    scale = np.abs(np.array(item.matrix.to_scale(), np.float64))  # of a mirrored matrix, Blender's are all negative
+    return scale * mirror(item)
+
+
+def mirror(item: Item) -> np.ndarray:
+    """Signs (3,) that turn a direction of the object into one of its rest pose."""
+    return np.array([-1.0 if item.matrix.determinant() < 0 else 1.0, 1.0, 1.0])
 
 
 def rest_points(item: Item) -> np.ndarray:
@@ -111,23 +120,28 @@ def rest_points(item: Item) -> np.ndarray:
 
 
 def _field(writer: SceneWriter, ob: bpy.types.Object, map_: PelageMap) -> dict[str, Any] | None:
+    """A map as a field; None while nothing is chosen. Raises ValueError if what was chosen is gone."""
+    what = f"the map of '{map_.key or 'density'}' on '{ob.name}'"
     if map_.source == "GROUP":
-        if map_.group not in ob.vertex_groups:
+        if not map_.group:
+            writer.notes.add(f"{what}: no vertex group is chosen")
             return None
+        if map_.group not in ob.vertex_groups:
+            raise ValueError(f"{what} is the vertex group '{map_.group}', which does not exist")
         channel = CHANNELS[groups_of(ob).index(map_.group)]
         return coat_values.scaled_map({"vertex_color": channel}, map_.low, map_.high)
     if map_.image is None:
-        return None
+        raise ValueError(f"{what} has no image")
     path, _ = image_file(map_.image, writer.folder)
     wrap = {} if map_.image.source == "TILED" else {"wrap": "repeat"}
     return coat_values.scaled_map({"map": str(path), "channel": "r"} | wrap, map_.low, map_.high)
 
 
-def _operator(writer: SceneWriter, ob: bpy.types.Object, operator: PelageOperator) -> dict[str, Any]:
-    values = {key: coat_values.scene_value(key, value.to_list() if hasattr(value, "to_list") else value)
+def _operator(writer: SceneWriter, item: Item, operator: PelageOperator) -> dict[str, Any]:
+    values = {key: coat_values.scene_value(key, value.to_list() if hasattr(value, "to_list") else value, mirror(item))
               for key, value in operator.items() if key not in PelageOperator.bl_rna.properties}
     for map_ in operator.maps:
-        factor = _field(writer, ob, map_)
+        factor = _field(writer, item.original, map_)
         if factor is not None:
             values[map_.key] = coat_values.times(values.get(map_.key, 1), factor)
     if values.get("mask") == 1:
@@ -161,7 +175,7 @@ def write_coat(writer: SceneWriter, item: Item, skin: str, coat: PelageCoat) -> 
     """Adds a coat to the document; its name with that of its material."""
     ob, name = item.original, writer.name("grooms", f"{item.name} {coat.name}")
     operators = _guides(writer, item, coat)
-    operators += [_operator(writer, ob, operator) for operator in coat.operators if operator.enabled]
+    operators += [_operator(writer, item, operator) for operator in coat.operators if operator.enabled]
     block: dict[str, Any] = {"skin": skin, "strands": coat.strands, "points": coat.points, "seed": coat.seed, "role": coat.role}
     if coat.use_density:
         density = _field(writer, ob, coat.density)

@@ -85,7 +85,7 @@ def _area(light: bpy.types.Light, matrix: mathutils.Matrix, axes: dict[str, list
     return {"type": "rectangle", **axes, "size": numbers([width, height])}
 
 
-def world_block(world: bpy.types.World | None, folder: SceneFolder, notes: Notes) -> dict[str, Any] | None:
+def world_block(world: bpy.types.World | None, folder: SceneFolder, notes: Notes, frame: int) -> dict[str, Any] | None:
     """The world as an environment; None if it is black."""
     if world is None:
         return None
@@ -105,7 +105,7 @@ def world_block(world: bpy.types.World | None, folder: SceneFolder, notes: Notes
         block = _environment([1.0, 1.0, 1.0], strength)
         if block is None:
             return None
-        path, _ = image_file(source.image, folder)
+        path, _ = image_file(source.image, folder, source.image_user, frame)
         return block | {"file": str(path), "rotate": environment_rotation(_mapping_z(source, notes))}
     return _environment(list(constant(node.inputs["Color"], notes))[:3], strength)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 RELAXATION = 1.6
-MOST_STEPS = 200
+MAX_STEPS = 200
 
 
 class LimitMap:
@@ -68,7 +68,7 @@ class LimitMap:
         """The cage (n, 3) whose limit positions are given, to a millionth of its size."""
         points = limits.astype(np.float64)
         close = 1e-6 * max(float(np.ptp(points, axis=0).max(initial=0)), 1e-12)
-        for _ in range(MOST_STEPS):
+        for _ in range(MAX_STEPS):
             error = limits - self.limit(points)
             if float(np.abs(error).max(initial=0)) < close:
                 break

@@ -21,8 +21,8 @@ DEFAULT_COLOR = [0.8, 0.8, 0.8]
 class MaterialConverter:
     """Converts the materials of a scene; `notes` collects what has no counterpart."""
 
-    def __init__(self, folder: SceneFolder, notes: Notes) -> None:
-        self.folder, self.notes = folder, notes
+    def __init__(self, folder: SceneFolder, notes: Notes, frame: int) -> None:
+        self.folder, self.notes, self.frame = folder, notes, frame
 
     def surface(self, material: bpy.types.Material | None) -> Block:
         """Material of a skin."""
@@ -67,7 +67,7 @@ class MaterialConverter:
         return self._limited(constant(socket, self.notes))
 
     def _map(self, node: bpy.types.Node) -> Block:
-        path, space = image_file(node.image, self.folder)
+        path, space = image_file(node.image, self.folder, node.image_user, self.frame)
         vector = linked_node(node.inputs["Vector"])
         if vector is not None and vector.type not in ("UVMAP", "TEX_COORD"):
             self.notes.add("mapping of image textures: images lie as the UV map says")

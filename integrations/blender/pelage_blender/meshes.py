@@ -32,6 +32,7 @@ class Cage:
     vertices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))  # (n,) vertex of Blender's mesh
     colors: np.ndarray | None = None     # (n, 3) vertex groups
     limit: LimitMap | None = None        # of a cage that modifiers deform: finds it from the limit surface
+    topology: tuple[int, int] = (0, 0)   # numbers of vertices and corners of the evaluated mesh that the poses are read from
 
 
 def _array(collection: Any, name: str, kind: Any, width: int = 1) -> np.ndarray:
@@ -42,6 +43,10 @@ def _array(collection: Any, name: str, kind: Any, width: int = 1) -> np.ndarray:
 
 def vertices_of(mesh: bpy.types.Mesh) -> np.ndarray:
     return _array(mesh.vertices, "co", np.float32, 3)
+
+
+def topology_of(mesh: bpy.types.Mesh) -> tuple[int, int]:
+    return len(mesh.vertices), len(mesh.loops)
 
 
 def _texture_coordinates(mesh: bpy.types.Mesh) -> np.ndarray | None:
@@ -80,7 +85,7 @@ def read_mesh(mesh: bpy.types.Mesh, sharp: bool = True) -> Cage | None:
     uvs = _texture_coordinates(mesh)
     if sharp:
         vertices, corners = _split_at_sharp_edges(mesh, corners, sizes)
-    return Cage(points[vertices], sizes, corners, uvs, slots, vertices=vertices)
+    return Cage(points[vertices], sizes, corners, uvs, slots, vertices=vertices, topology=topology_of(mesh))
 
 
 def geometry_modifiers(ob: bpy.types.Object, render: bool) -> list[bpy.types.Modifier]:
@@ -90,13 +95,14 @@ def geometry_modifiers(ob: bpy.types.Object, render: bool) -> list[bpy.types.Mod
 
 
 def subdivision(ob: bpy.types.Object, render: bool) -> bpy.types.Modifier | None:
-    """The Catmull-Clark modifier of an object if it is the last one, only deforming ones precede it, and Pelage can do the same."""
+    """The Catmull-Clark modifier of an object, if it is the last, only deforming ones precede it, and Pelage can do it."""
     found = geometry_modifiers(ob, render)
     if ob.type != "MESH" or not found or found[-1].type != "SUBSURF" or any(m.type not in DEFORMING for m in found[:-1]):
         return None
     modifier, mesh = found[-1], ob.original.data
     levels = modifier.render_levels if render else modifier.levels
-    creased = modifier.use_creases and mesh.has_crease_edge and bool(np.any(_array(mesh.edges, "crease", np.float32) > 0))
+    edges = mesh.has_crease_edge and bool(np.any(_array(mesh.edges, "crease", np.float32) > 0))
+    creased = modifier.use_creases and (edges or mesh.has_crease_vertex)
     exact = modifier.subdivision_type == "CATMULL_CLARK" and levels > 0 and modifier.use_limit_surface and not creased
     return modifier if exact and len(mesh.polygons) else None
 
@@ -118,7 +124,7 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
         assert cage is not None
         cage.scheme = "catmull-clark"
         cage.boundary = "edge-only" if modifier.boundary_smooth == "ALL" else "edge-and-corner"
-        cage.colors = _group_colors(ob, ob.original.data, groups)
+        cage.colors, cage.topology = _group_colors(ob, ob.original.data, groups), topology_of(mesh)
         if deforms(ob, render):
             cage.limit = LimitMap(cage.sizes, cage.corners, len(cage.points), cage.boundary == "edge-and-corner")
             cage.rest = cage.points
@@ -137,12 +143,12 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
 
 def pose_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, cage: Cage) -> np.ndarray | None:
     """Points of the cage in the pose of `mesh`, the same object at another time; None if the mesh has changed."""
+    if topology_of(mesh) != cage.topology:
+        return None
     if cage.limit is not None:
         return cage.limit.cage(vertices_of(mesh)[:len(cage.points)])
     if cage.scheme == "catmull-clark":
         return cage.points
-    if len(mesh.vertices) <= (int(cage.vertices.max()) if len(cage.vertices) else 0):
-        return None
     return vertices_of(mesh)[cage.vertices]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import bpy
@@ -11,7 +11,7 @@ import numpy as np
 
 from . import exr
 from .axes import FLOATS
-from .files import pelage_name
+from .files import light_name
 
 LOBES = ("diffuse", "primary", "secondary")
 DATA = {"id": ("X", "VALUE", ("id.X",)), "root": ("UV", "VECTOR", ("root.u", "root.v")),
@@ -25,9 +25,9 @@ VECTORS = {"N", "tangent"}
 def light_names(scene: bpy.types.Scene, layer: bpy.types.ViewLayer | None = None) -> list[str]:
     """Names that lights get in a Pelage scene, of all lights that may be in the picture."""
     taken: set[str] = set()
-    names = [pelage_name("world", taken)] if scene.world is not None else []
+    names = [light_name("world", taken)] if scene.world is not None else []
     lights = [ob for ob in (layer.objects if layer is not None else scene.objects) if ob.type == "LIGHT"]
-    return names + [pelage_name(ob.name, taken) for ob in lights if not ob.hide_render]
+    return names + [light_name(ob.name, taken) for ob in lights if not ob.hide_render]
 
 
 def wanted_passes(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[tuple[str, int, str, str]]:
@@ -35,7 +35,7 @@ def wanted_passes(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterato
     if scene.pelage.light_layers:
         for light in light_names(scene, layer):
             for lobe in (*LOBES, "emission") if light == "world" else LOBES:
-                yield f"{light}.{lobe}"[:63], 3, "RGB", "COLOR"
+                yield f"{light}.{lobe}", 3, "RGB", "COLOR"
     if scene.pelage.data_layers:
         for name, (letters, kind, _) in DATA.items():
             yield name, len(letters), letters, kind
@@ -87,12 +87,10 @@ class Picture:
         return None if vectors is None else np.stack([vectors[:, 0], -vectors[:, 2], vectors[:, 1]], axis=1)
 
 
-def fill(passes: Any, picture: Picture, transparent: bool, note: Callable[[str], None]) -> None:
+def fill(passes: Any, picture: Picture, transparent: bool) -> None:
     """Copies a picture to the passes of a layer of a render result."""
     for render_pass in passes:
         name = render_pass.name
         values = picture.combined(transparent) if name == "Combined" else picture.layer(name)
         if values is not None and values.shape[1] == render_pass.channels:
             render_pass.rect.foreach_set(np.ascontiguousarray(values, np.float32))
-        elif values is None and name not in ("Depth", "Normal") and not name.endswith(("emission", *LOBES)):
-            note(f"pass {name}: empty")

@@ -26,17 +26,17 @@ class Cancelled(Exception):
 
 
 def find_program(wanted: str = "") -> str:
-    """Path of the program: the one that is wanted, or $PELAGE_PROGRAM, or beside this package, or on PATH."""
+    """Absolute path of the program: the one that is wanted, or else $PELAGE_PROGRAM, or beside this package, or on PATH."""
     beside = pathlib.Path(__file__).parent / "bin" / "pelage"
-    for candidate in (wanted, os.environ.get("PELAGE_PROGRAM", ""), str(beside)):
+    for candidate in (wanted,) if wanted else (os.environ.get("PELAGE_PROGRAM", ""), str(beside)):
         if candidate and os.access(candidate, os.X_OK) and os.path.isfile(candidate):
-            return candidate
+            return os.path.abspath(candidate)
     if wanted:
         raise PelageFailed(f"there is no program {wanted}; please correct the path in the preferences of the add-on")
     found = shutil.which("pelage")
     if found is None:
         raise PelageFailed("the program pelage was not found; please set its path in the preferences of the add-on")
-    return found
+    return os.path.abspath(found)
 
 
 # The shell asks the program to end when its standard input ends: also when this process is killed. Its exit code is that of the
@@ -62,6 +62,10 @@ def end(process: subprocess.Popen[str], patience_s: float = 3.0) -> None:
         process.wait()
 
 
+def _number(value: Any) -> float:
+    return float(value) if isinstance(value, (int, float)) else 0.0
+
+
 class Output(threading.Thread):
     """Reads what a process writes to standard error: one JSON object per line for progress, other lines for mistakes."""
 
@@ -83,8 +87,8 @@ class Output(threading.Thread):
             if not isinstance(entry, dict):
                 self.mistakes.append(line.rstrip())
             elif "stage" in entry:
-                self.stage, self.fraction = str(entry["stage"]), float(entry["done"])
-                self.stages[self.stage] = float(entry.get("elapsed_s", 0))
+                self.stage, self.fraction = str(entry["stage"]), _number(entry.get("done"))
+                self.stages[self.stage] = _number(entry.get("elapsed_s"))
             elif "warning" in entry:
                 self.warnings.append(str(entry["warning"]))
 

@@ -6,8 +6,10 @@ Knows nothing of Blender's types.
 from __future__ import annotations
 
 import functools
+import os
 import re
 import subprocess
+import time
 from dataclasses import dataclass
 
 from .process import PelageFailed
@@ -17,8 +19,10 @@ ENDLESS = 1e30
 DIRECTIONS = {"direction", "gravity"}
 """Keys with a direction, which the panel shows with z up."""
 POINTS = {"center"}
-UNWANTED = {"guides", "color", "part", "python", "operator mask"}
-"""Blocks that the panel does not offer: guides and colours belong to the coat; lines and modules are not numbers."""
+UNWANTED = {"guides", "color", "part", "python", "avoid", "operator mask"}
+"""Blocks that the panel does not offer: guides and colours belong to the coat; lines, modules and meshes are not numbers."""
+FAILURE_S = 20.0
+"""How long a program that has failed is not asked again."""
 
 
 @dataclass(frozen=True)
@@ -123,14 +127,36 @@ def operators_of(markdown: str) -> dict[str, SchemaBlock]:
     return result
 
 
-@functools.lru_cache(maxsize=4)
-def load(program: str) -> dict[str, SchemaBlock]:
-    """Operators of the groom of a program; asks it once. Raises PelageFailed."""
+Answer = tuple[float, "dict[str, SchemaBlock] | PelageFailed"]  # when it came, and what it was
+
+
+def _ask(program: str) -> dict[str, SchemaBlock] | PelageFailed:
     try:
-        result = subprocess.run([program, "manual", "--markdown"], capture_output=True, text=True, timeout=30,
+        result = subprocess.run([program, "manual", "--markdown"], capture_output=True, text=True, timeout=10,
                                 stdin=subprocess.DEVNULL)
-    except (OSError, subprocess.TimeoutExpired) as error:
-        raise PelageFailed(f"{program} cannot be run: {error}") from error
+    except (OSError, ValueError, subprocess.TimeoutExpired) as error:
+        return PelageFailed(f"{program} cannot be run: {error}")
     if result.returncode != 0:
-        raise PelageFailed(f"{program} manual: {result.stderr.strip()}")
-    return operators_of(result.stdout)
+        return PelageFailed(f"{program} manual: {result.stderr.strip()}")
+    try:
+        return operators_of(result.stdout)
+    except (KeyError, ValueError) as error:
+        return PelageFailed(f"{program} is not a program pelage that this add-on understands: no {error} in its manual")
+
+
+@functools.lru_cache(maxsize=4)
+def _answer(program: str, changed_ns: int) -> Answer:
+    result = _ask(program)
+    return time.monotonic(), result
+
+
+def load(program: str) -> dict[str, SchemaBlock]:
+    """Operators of the groom of a program; asks it once, and again when the file has changed. Raises PelageFailed."""
+    changed_ns = os.stat(program).st_mtime_ns if os.path.exists(program) else 0
+    when, result = _answer(program, changed_ns)
+    if isinstance(result, PelageFailed) and time.monotonic() - when > FAILURE_S:
+        _answer.cache_clear()
+        _, result = _answer(program, changed_ns)
+    if isinstance(result, PelageFailed):
+        raise PelageFailed(str(result))
+    return result

@@ -2,6 +2,7 @@
 """Runs `pelage view` and fetches its pictures (docs/VIEW.md, For tools). Knows nothing of Blender."""
 from __future__ import annotations
 
+import collections
 import http.client
 import json
 import re
@@ -50,28 +51,55 @@ class ViewClient:
 
     def __init__(self, program: str, scene: str, threads: int = 0) -> None:
         command = [program, "view", scene] + (["--threads", str(threads)] if threads else [])
-        self.process = start(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.process = start(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.picture: ViewPicture | None = None
         self.state: dict[str, Any] = {}
         self.error = ""
         self._closing = threading.Event()
+        self._last_lines: collections.deque[str] = collections.deque(maxlen=8)  # of standard error
+        self._listener = threading.Thread(target=self._listen, daemon=True)
         self._thread = threading.Thread(target=self._run, daemon=True)
+        self._listener.start()
         self._thread.start()
+
+    @property
+    def ended(self) -> bool:
+        """Whether the program has ended, whatever the reason."""
+        return self.process.poll() is not None
 
     def close(self) -> None:
         """Ends the program and the thread."""
         self._closing.set()
         end(self.process)
-        self._thread.join(3)
-        if self.process.stdout is not None:
-            self.process.stdout.close()
+        for thread in (self._thread, self._listener):
+            thread.join(3)
+        for pipe in (self.process.stdout, self.process.stderr):
+            if pipe is not None:
+                pipe.close()
+
+    def _listen(self) -> None:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            if line.strip():
+                self._last_lines.append(line.rstrip())
+
+    def _end_message(self) -> str:
+        """Why the program has ended: a signal, or its last words."""
+        self._listener.join(1)
+        try:
+            code = self.process.wait(1)
+        except subprocess.TimeoutExpired:
+            code = 0
+        if code > 128:
+            return f"pelage view was ended by signal {code - 128}; the next edit starts it again"
+        return "\n".join(self._last_lines) or "pelage view has ended; the next edit starts it again"
 
     def _run(self) -> None:
         assert self.process.stdout is not None
         found = ADDRESS.search(self.process.stdout.readline())
         if found is None:
             if not self._closing.is_set():
-                self.error = "the program pelage view has not started"
+                self.error = self._end_message()
             return
         self._host, self._port, self._token = found.group(1), int(found.group(2)), found.group(3)
         while not self._closing.wait(POLL_S):
@@ -79,6 +107,9 @@ class ViewClient:
                 self._poll()
             except (OSError, ValueError, KeyError, http.client.HTTPException) as error:
                 if self._closing.is_set():
+                    return
+                if self.ended:
+                    self.error = self._end_message()
                     return
                 self.error = f"pelage view does not answer: {error}"
                 time.sleep(0.2)

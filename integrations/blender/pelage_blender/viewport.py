@@ -66,10 +66,13 @@ class ViewportSession:
         except (ValueError, OSError, MemoryError) as error:
             self.problem = str(error)
             return
-        except Exception as error:  # a mistake of ours: the viewport goes on
+        except Exception as error:  # the viewport keeps its last picture
             traceback.print_exc()
-            self.problem = f"the add-on has made a mistake: {error}"
+            self.problem = f"internal error in the add-on: {error}"
             return
+        if self.client is not None and self.client.ended:
+            self.client.close()
+            self.client, self.shown = None, -1
         if self.client is None:
             scene = depsgraph.scene
             threads = scene.render.threads if scene.render.threads_mode == "FIXED" else 0
@@ -103,8 +106,9 @@ class ViewportSession:
         """One line for the viewport."""
         if self.problem or self.client is None:
             return self.problem
-        if self.client.error:
-            return process.readable(self.client.error.splitlines()[0], pathlib.Path(self.folder) / "scene.yaml")
+        error = self.client.error  # a thread may clear it
+        if error:
+            return process.readable(error.splitlines()[0], pathlib.Path(self.folder) / "scene.yaml")
         state = self.client.state
         if state.get("done"):
             return f"Samples {state.get('samples', 0):.0f}"
@@ -133,7 +137,7 @@ def acquire() -> ViewportSession:
     """A session for a new engine: one that has just been released, or a new one. Raises PelageFailed."""
     while _spare:
         _, session = _spare.pop()
-        if session.program == preferences.program():
+        if session.program == preferences.program() and (session.client is None or not session.client.ended):
             return session
         session.close()
     return ViewportSession()
@@ -178,6 +182,9 @@ def follow(engine: Any) -> None:
                 alive.tag_redraw()  # type: ignore[union-attr]
         except ReferenceError:  # Blender has freed the engine
             return None
+        except Exception:  # the next picture may be better; without the timer, there would be none
+            traceback.print_exc()
+            return 1.0
         return 0.05
 
     bpy.app.timers.register(tick, first_interval=0.05)
