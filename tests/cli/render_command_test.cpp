@@ -191,11 +191,11 @@ TEST_F(RenderCommandTest, AttributesThatStrandsLackAreReportedWhereTheyAreNamed)
 }
 
 TEST_F(RenderCommandTest, AStrandFileOfAnUnknownKindIsReportedWhereItIsNamed) {
-  scene_.write("guides.abc", "x");
+  scene_.write("guides.xgn", "x");
   scene_.write("guides.yaml",
-               "include: scene.yaml\ngrooms:\n  coat: {operators: [{guides: {file: guides.abc}}]}\n");
+               "include: scene.yaml\ngrooms:\n  coat: {operators: [{guides: {file: guides.xgn}}]}\n");
   scene_.write("file.yaml",
-               "include: scene.yaml\ngrooms:\n  more: {strands_file: guides.abc}\ncharacters:\n"
+               "include: scene.yaml\ngrooms:\n  more: {strands_file: guides.xgn}\ncharacters:\n"
                "  post: {parts: [{skin: still, material: hide, grooms: {more: fur}}]}\n");
   for (const auto& [scene, place] : {std::pair("guides.yaml", ":3:38"), std::pair("file.yaml", ":3:24")}) {
     Options o = options("x.exr");
