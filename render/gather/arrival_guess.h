@@ -16,7 +16,7 @@ class ArrivalGuess {
   /// Count of ranges of directions: the quarters of the faces of a cube.
   static constexpr uint32_t kRanges = 24;
   /// Zones of a tile whose indices are equal modulo kZones share what is learned.
-  static constexpr uint32_t kZones = 128;
+  static constexpr uint32_t kZones = 256;
   /// Returns the range that contains a direction.
   static uint32_t range_of(const V3f& direction);
 

@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kZones = 8;
+constexpr uint32_t kZones = GatherPointKey::kZones;
 /// A strand whose gather points are seen by fewer samples uses the cells of its coat.
 constexpr float kFewest = 4;
 
@@ -55,24 +55,24 @@ GatherPointKey GatherPointKeys::on_strand(const Hit& hit, const Strands& strand,
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
   const uint32_t gather_point = gather_point_near(place, level, random.x);
   const uint32_t zone = std::min(kZones * gather_point >> level, kZones - 1);
-  const uint64_t zone_key = hash64(random_use("zone of a coat"), hit.part, zone);
+  const uint64_t coat = hash64(random_use("coat"), hit.part);
   // Pairs of gather points where these are shorter than a zone.
   const uint32_t part = (1u << level) > 2 * kZones ? kZones + gather_point / 2 : zone;
   const uint64_t patch = hash64(gather_points.patch, part);
   if (gather_points.in_cells) {
     const uint64_t bits = std::bit_cast<uint32_t>(random.y);
-    return {cells_.key(hit, strand, gather_points.length, place, bits), patch, zone_key};
+    return {cells_.key(hit, strand, gather_points.length, place, bits), patch, coat, zone, place};
   }
   return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, gather_point)), patch,
-          zone_key};
+          coat, zone, place};
 }
 
 GatherPointKey GatherPointKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const {
-  const uint64_t zone = hash64(random_use("zone of a skin"), hit.part);
+  const uint64_t skin = hash64(random_use("skin"), hit.part);
   if (triangle.vertex_uv.empty()) {
     const uint64_t face = triangle.faces.empty() ? 0 : triangle.faces[0];
     const uint64_t gather_point = hash64(random_use("knot of a skin"), hit.part, face);
-    return {gather_point, gather_point, zone};
+    return {gather_point, gather_point, skin};
   }
   // The face's size in the picture along its two parameters, as it is at the hit: one end of a large face may
   // be behind the camera.
@@ -96,7 +96,7 @@ GatherPointKey GatherPointKeys::on_skin(const Hit& hit, const SkinMesh& triangle
   const uint64_t gather_point = hash64(random_use("knot of a skin"), hit.part, triangle.faces[0],
                                        pack(levels[0], gather_point_near(place.x, levels[0], random.x)),
                                        pack(levels[1], gather_point_near(place.y, levels[1], random.y)));
-  return {gather_point, gather_point, zone};
+  return {gather_point, gather_point, skin};
 }
 
 }  // namespace pelage

@@ -53,9 +53,14 @@ class RecentGatherPoints {
 /// of a coat, a few pixels long and wide, or a single gather point of a skin. About the same indirect light
 /// arrives at all gather points of a patch. A zone is one of eight depth ranges of a coat, or a whole skin.
 struct GatherPointKey {
+  static constexpr uint32_t kZones = 8;  ///< of a coat
+
   uint64_t gather_point = 0;
   uint64_t patch = 0;
-  uint64_t zone = 0;
+  uint64_t coat = 0;  ///< the coat or the skin
+  uint32_t zone = 0;  ///< of the gather point, counted from the roots; 0 on skins
+  float depth =
+      0.5f / kZones;  ///< of the hit, from 0 at the root to 1 at the tip; the middle of zone 0 on skins
 };
 
 /// Assigns the hits of a frame to gather points.

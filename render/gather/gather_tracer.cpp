@@ -139,10 +139,13 @@ size_t GatherTracer::scratch_bytes(size_t lights, uint32_t samples, bool draws) 
   // At worst, each sample has a gather point of its own.
   const size_t gather_point = 2 * IndexTable::bytes_per_key() + LightSharing::bytes_per_gather_point(lights) +
                               PathSharing::bytes_per_gather_point(lights);
-  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + gather_point;
+  const size_t path = sizeof(IndirectPaths::Scratch::Traced) + lights * sizeof(Rgb);
+  const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + gather_point + 2 * path;
   // One sample in kPilotShare is a pilot; at least one is.
   const size_t pilots = rays * sizeof(ShadowRays::Pilot) * (samples / kPilotShare + 1);
-  return RecentGatherPoints::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
+  return RecentGatherPoints::bytes() + ArrivalGuess::bytes(lights) +
+         DepthProfile::bytes(lights, kPixels * samples * rays) + DepthProfile::bytes(1, kPixels * samples) +
+         kPixels * pilots +
          kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double) + kEstimateBytes) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
@@ -188,6 +191,8 @@ bool GatherTracer::gather(const Tile& tile, uint32_t first, uint32_t count, cons
   if (!look(first + pilot, count - pilot, job, scratch)) return false;
   if (!shadow_rays_.trace(samples, pilot_rays, job, scratch.shadow_rays, scratch, scratch.lights))
     return false;
+  if (reuse) scratch.lights.profile().learn();
+  add_unoccluded(scratch);
   scratch.lights.finish(samples.zone_of_gather_point.size());
   scratch.paths.begin(samples.zone_of_gather_point.size(), samples.zones, lights, reuse);
   if (!indirect_paths_.trace(samples, job, scratch.indirect_paths, scratch, scratch.paths)) return false;
@@ -222,14 +227,31 @@ bool GatherTracer::look(uint32_t first, uint32_t count, const Job& job, Scratch&
   return true;
 }
 
+/// Adds the unoccluded light of all visible points to their gather points, times what the profile expects at
+/// the depth of the point.
+void GatherTracer::add_unoccluded(Scratch& scratch) const {
+  const Rgb* unoccluded = scratch.samples.unoccluded.data();
+  for (const VisiblePoint& point : scratch.samples.points) {
+    for (size_t light = 0; light < scene_.sources(); ++light, unoccluded += kLobeGroups) {
+      const float expected = scratch.lights.profile().at(point.depth, scene_.group(light));
+      Rgb lobes[kLobeGroups];
+      for (int g = 0; g < kLobeGroups; ++g) lobes[g] = unoccluded[g] * expected;
+      scratch.lights.add_unoccluded(point.gather_point, light, lobes);
+    }
+  }
+}
+
 /// Adds the light that a visible point scatters to `scratch.sample` and `scratch.by_layer`.
 void GatherTracer::add_scattered(uint32_t point, Scratch& scratch) const {
   const VisiblePoint& at = scratch.samples.points[point];
   const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.sources() * kLobeGroups];
+  const float indirect = scratch.paths.profile().at(at.depth, 0);
   for (size_t light = 0; light < scene_.sources(); ++light) {
+    const float arriving = scratch.lights.profile().at(at.depth, scene_.group(light));
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.gather_point, light, g);
-      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.gather_point, light, g);
+      const Rgb direct = *unoccluded++ * (arriving * scratch.lights.fraction(at.gather_point, light, g));
+      const Rgb radiance = indirect * scratch.paths.radiance(at.gather_point, light, g);
+      const Rgb part = direct + at.weights[g] * radiance;
       scratch.sample.radiance += part;
       if (g >= layers_.groups) continue;
       scratch.by_layer[layers_.scattered(light, g)] += part;

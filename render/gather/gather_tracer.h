@@ -62,6 +62,7 @@ class GatherTracer final : public TileIntegrator {
   struct Scratch;
   bool gather(const Tile& tile, uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;
   bool look(uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;
+  void add_unoccluded(Scratch& scratch) const;
   void add_scattered(uint32_t point, Scratch& scratch) const;
   void add_samples(const TileTask& task, Scratch& scratch) const;
 

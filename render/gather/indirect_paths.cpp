@@ -2,6 +2,7 @@
 #include "render/gather/indirect_paths.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/hash.h"
@@ -60,11 +61,40 @@ class IndirectPaths::ArrivingLight {
 bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
                           PathSharing& light) const {
   if (scene_.render.bounces == 0) return true;
+  if (!trace_paths(samples, job, scratch, thread, light.profile())) return false;
+  if (scene_.render.gather.reuse) light.profile().learn();
+  Rgb weights[kLobeGroups];
+  const auto weigh = [&](const VisiblePoint& point) {
+    const float expected = light.profile().at(point.depth, 0);
+    for (int g = 0; g < kLobeGroups; ++g) weights[g] = point.weights[g] * expected;
+    return expected;
+  };
+  for (const VisiblePoint& point : samples.points) {
+    weigh(point);
+    light.add_weights(point.gather_point, weights);
+  }
+  Rgb* arrived = scratch.arrived.data();
+  for (const auto& [index, factor] : scratch.traced) {
+    const VisiblePoint& point = samples.points[index];
+    const float expected = weigh(point);
+    const std::span<Rgb> radiance(arrived, scene_.sources());
+    for (Rgb& of_light : radiance) of_light /= expected;
+    light.add_path(point.gather_point, weights, factor, radiance);
+    arrived += scene_.sources();
+  }
+  return true;
+}
+
+/// Fills `scratch.traced` and `scratch.arrived`, and adds the paths to `profile`. Returns false when `job`
+/// was cancelled.
+bool IndirectPaths::trace_paths(const TileSamples& samples, const Job& job, Scratch& scratch,
+                                SampleScratch& thread, DepthProfile& profile) const {
   scratch.order.sort(0, samples.points.size(), samples.zone_of_gather_point.size(),
                      [&](size_t i) { return samples.points[i].gather_point; });
+  scratch.traced.clear();
+  scratch.arrived.clear();
   const double step = scene_.render.gather.reuse ? 1 / double{scene_.render.gather.paths} : 1;
   SystematicChoice choice(step, 0);
-  size_t traced = 0;
   uint32_t last = TileSamples::kNoPoint;
   for (const uint32_t index : scratch.order.items()) {
     const VisiblePoint& point = samples.points[index];
@@ -72,15 +102,21 @@ bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& s
     if (gather_point != std::exchange(last, gather_point))
       choice =
           SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, gather_point)));
-    light.add_weights(gather_point, point.weights);
     const float mass =
         options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight(), point.attraction) : 1.0f;
     const uint32_t times = choice.times(mass);
     if (times == 0) continue;
-    if (++traced % kPathsPerCheck == 0 && job.progress.cancelled()) return false;
+    if (scratch.traced.size() % kPathsPerCheck == 0 && job.progress.cancelled()) return false;
     const auto factor = static_cast<float>(times * step / mass);
     follow(samples, point, factor, scratch, thread);
-    light.add_path(gather_point, point.weights, factor, scratch.arriving);
+    scratch.traced.push_back({index, factor});
+    scratch.arrived.insert(scratch.arrived.end(), scratch.arriving.begin(), scratch.arriving.end());
+    if (!scene_.render.gather.reuse) continue;
+    Rgb all(0);
+    for (const Rgb& of_light : scratch.arriving) all += of_light;
+    const Rgb weight = point.weight();
+    profile.add(gather_point, point.depth, 0, double{luminance(weight)} * factor,
+                double{luminance(weight * all)} * factor);
   }
   return true;
 }

@@ -34,15 +34,24 @@ class IndirectPaths {
     GatherPointOrder order;  // visible points, sorted by gather point
     ReflectionStatistics reflections;
     std::vector<Rgb> arriving;  // radiance that arrives at the visible point along a path, by light
+    struct Traced {
+      uint32_t point = 0;  // index of the visible point
+      float factor = 0;    // count of visible points that the path represents
+    };
+    std::vector<Traced> traced;
+    std::vector<Rgb> arrived;  // `arriving` of each traced path
   };
 
-  /// Traces the paths, and adds their light to `light`. Also adds the weights of all visible points to
-  /// `light`. Returns false when `job` was cancelled.
+  /// Traces the paths, learns from them how indirect light falls off in coats, and adds their light to
+  /// `light`, relative to that. Also adds the weights of all visible points to `light`. Returns false when
+  /// `job` was cancelled.
   bool trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
              PathSharing& light) const;
 
  private:
   class ArrivingLight;
+  bool trace_paths(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
+                   DepthProfile& profile) const;
   void follow(const TileSamples& samples, const VisiblePoint& point, float factor, Scratch& scratch,
               SampleScratch& thread) const;
 

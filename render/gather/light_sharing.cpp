@@ -8,6 +8,7 @@ namespace pelage {
 void LightSharing::begin(size_t lights, size_t groups) {
   lights_ = lights;
   guess_.begin(groups);
+  profile_.begin(groups);
   gather_points_.clear();
 }
 

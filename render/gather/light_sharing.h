@@ -7,6 +7,7 @@
 #include "base/vector.h"
 #include "render/fibre/fibre_value.h"
 #include "render/gather/arrival_guess.h"
+#include "render/gather/depth_profile.h"
 
 namespace pelage {
 
@@ -27,6 +28,10 @@ namespace pelage {
 /// This estimate is unbiased for every p that does not depend on the choice of the rays that it is used for.
 /// The random choice of rays changes both parts of the second sum in the same way, so most of the noise of
 /// this choice cancels.
+///
+/// Unoccluded light may be multiplied by a factor of its visible point, before it is added to U and when it
+/// is multiplied by the fraction. The product, summed over the points of a gather point, stays the same; only
+/// its distribution changes. DepthProfile gives these factors.
 class LightSharing {
  public:
   /// Starts a tile. `groups`: count of groups of lights that the guess tells apart.
@@ -41,6 +46,7 @@ class LightSharing {
   void finish(size_t gather_points);
   /// Returns what rays have found so far in this tile.
   ArrivalGuess& guess() { return guess_; }
+  DepthProfile& profile() { return profile_; }
   /// Returns the max memory per gather point, in bytes. The factor 2 is for vectors that double their size.
   static size_t bytes_per_gather_point(size_t lights) { return 2 * lights * sizeof(GatherPoint); }
   /// Returns the result of finish() for a gather point and a light.
@@ -57,6 +63,7 @@ class LightSharing {
 
   size_t lights_ = 0;
   ArrivalGuess guess_;
+  DepthProfile profile_;
   std::vector<GatherPoint> gather_points_;  // by gather point and light
 };
 

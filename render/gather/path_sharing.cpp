@@ -20,6 +20,7 @@ Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
 void PathSharing::begin(size_t gather_points, uint32_t zones, size_t lights, bool guess) {
   lights_ = lights;
   guess_ = guess;
+  profile_.begin(1);
   weights_.assign(gather_points, {});
   arrived_.assign(gather_points * lights * kLobeGroups, Rgb(0));
   zone_traced_.assign(zones, Rgb(0));

@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "render/fibre/fibre_value.h"
+#include "render/gather/depth_profile.h"
 
 namespace pelage {
 
@@ -22,11 +23,16 @@ namespace pelage {
 /// Then the estimated radiance is p + (arrived - p * seen) / W. It is unbiased for every p that does not
 /// depend on the paths of this gather point. For p, the class uses arrived / seen of all other gather points
 /// of the same zone (one of eight depth ranges of a coat, or a whole skin).
+///
+/// Radiances may be relative to a factor of each visible point, by which the weights of the point are
+/// multiplied; the sum over the points of a gather point stays the same. DepthProfile gives these factors.
 class PathSharing {
  public:
   /// Starts a tile. `guess`: whether p is the mean over the other gather points of the zone; otherwise, p =
   /// 0.
   void begin(size_t gather_points, uint32_t zones, size_t lights, bool guess);
+
+  DepthProfile& profile() { return profile_; }
 
   /// Adds the weights of a visible point, by lobe group, to its gather point. Call for every visible point,
   /// with or without a path.
@@ -59,6 +65,7 @@ class PathSharing {
 
   size_t lights_ = 0;
   bool guess_ = true;
+  DepthProfile profile_;
   std::vector<Weights> weights_;  // by gather point
   std::vector<Rgb> arrived_;  // by gather point, light and lobe group; finish() replaces sums by radiances
   std::vector<Rgb> zone_traced_;   // by zone

@@ -25,22 +25,16 @@ float chance(const FrameScene& scene, const TileSamples& samples, const LightRay
 
 }  // namespace
 
-/// Adds the unoccluded light of the rays from `first` on, and sums up the light that is expected of each
-/// pixel. Returns the sum over all pixels.
-double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scratch& scratch,
-                                  LightSharing& light) const {
+/// Sums up the light that is expected of each pixel from the rays from `first` on. Returns the sum over all
+/// pixels.
+double ShadowRays::expect(const TileSamples& samples, size_t first, const ArrivalGuess& guess,
+                          Scratch& scratch) const {
   scratch.pixel_light.assign(samples.pixels(), 0);
   double sum = 0;
   for (size_t i = first; i < samples.light_rays.size(); ++i) {
     const LightRay& ray = samples.light_rays[i];
-    const VisiblePoint& point = samples.points[ray.point];
-    const LightRay* before = i > first ? &ray - 1 : nullptr;
-    if (!before || before->point != ray.point || before->light != ray.light) {
-      const size_t lobes = (ray.point * scene_.sources() + ray.light) * kLobeGroups;
-      light.add_unoccluded(point.gather_point, ray.light, &samples.unoccluded[lobes]);
-    }
-    const double expected = ray.unoccluded * chance(scene_, samples, ray, light.guess());
-    scratch.pixel_light[point.pixel] += expected;
+    const double expected = ray.unoccluded * chance(scene_, samples, ray, guess);
+    scratch.pixel_light[samples.points[ray.point].pixel] += expected;
     sum += expected;
   }
   return sum;
@@ -81,7 +75,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
                        SampleScratch& thread, LightSharing& light) const {
   const size_t count = samples.light_rays.size() - first;
   if (count == 0) return true;
-  const double tile_light = add_unoccluded(samples, first, scratch, light);
+  const double tile_light = expect(samples, first, light.guess(), scratch);
   const size_t lights = scene_.sources(), gather_points = samples.zone_of_gather_point.size();
   scratch.order.sort(first, count, gather_points * lights, [&](size_t i) {
     const LightRay& ray = samples.light_rays[i];
@@ -109,13 +103,18 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       if (times == 0) continue;
       if (++traced % kRaysPerCheck == 0 && job.progress.cancelled()) return false;
       const LightRay& ray = samples.light_rays[index];
-      const float through = thread.light_through(accel_, samples.points[ray.point].ray(ray.ray));
+      const VisiblePoint& point = samples.points[ray.point];
+      const float through = thread.light_through(accel_, point.ray(ray.ray));
       const auto factor = static_cast<float>(times * choice.step() / of_ray);
+      if (guesses_) {
+        const double seen = double{ray.unoccluded} * factor;
+        light.profile().add(gather_point, point.depth, scene_.group(ray.light), seen, seen * through);
+      }
       if (first == 0) {
         scratch.pilots.push_back({index, factor, through});
         continue;
       }
-      const uint32_t zone = samples.zone(samples.points[ray.point]);
+      const uint32_t zone = samples.zone(point);
       const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
       const float expected = guesses_ ? light.guess().fraction(zone, scene_.group(ray.light), range) : 0.0f;
       light.add_arriving(gather_point, ray.light, ray.lobes, factor * (through - expected));

@@ -51,8 +51,7 @@ class ShadowRays {
              SampleScratch& thread, LightSharing& light) const;
 
  private:
-  double add_unoccluded(const TileSamples& samples, size_t first, Scratch& scratch,
-                        LightSharing& light) const;
+  double expect(const TileSamples& samples, size_t first, const ArrivalGuess& guess, Scratch& scratch) const;
   double weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess, Scratch& scratch) const;
   void finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const;
 

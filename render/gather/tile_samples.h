@@ -10,6 +10,7 @@
 #include "render/fibre/fibre_value.h"
 #include "render/film/visible_surface.h"
 #include "render/frame/tile_order.h"
+#include "render/gather/depth_profile.h"
 
 namespace pelage {
 
@@ -26,9 +27,10 @@ struct VisiblePoint {
   uint32_t pixel = 0;         ///< index of the pixel in the tile
   uint32_t sample = 0;        ///< index of the sample in its pixel
   uint32_t gather_point = 0;  ///< index in TileSamples::zone_of_gather_point
-  float time = 0;             ///< of the shutter, in [0, 1]
-  uint32_t random = 0;        ///< PathState::random at this point
-  StrandStart start = {};     ///< Hit::start; empty if a ray may hit the strand that it leaves
+  DepthPlace depth;
+  float time = 0;          ///< of the shutter, in [0, 1]
+  uint32_t random = 0;     ///< PathState::random at this point
+  StrandStart start = {};  ///< Hit::start; empty if a ray may hit the strand that it leaves
 
   LeavingRay scattered;  ///< the ray sampled from the lobes
   /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was sampled

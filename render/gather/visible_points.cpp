@@ -29,18 +29,22 @@ VisiblePoints::VisiblePoints(const FrameScene& scene, const Accel& accel, const 
       keys_(scene, samples),
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &far_lights) {}
 
-uint32_t VisiblePoints::gather_point_of(const GatherPointKey& key, Scratch& scratch,
-                                        TileSamples& tile) const {
+/// Finds the indices of the gather point, patch and zone of a visible point.
+void VisiblePoints::assign(const GatherPointKey& key, Scratch& scratch, TileSamples& tile,
+                           VisiblePoint& visible) const {
+  constexpr uint32_t kZones = GatherPointKey::kZones;
+  const uint32_t first_zone = scratch.coats.index(key.coat) * kZones;
+  const float depth = std::clamp(key.depth, 0.0f, 1.0f) * kZones - 0.5f;
+  const float below = std::clamp(std::floor(depth), 0.0f, kZones - 2.0f);
+  visible.depth = {first_zone + static_cast<uint32_t>(below), depth - below};
   // Without reuse, each point has a gather point of its own.
   const auto count = static_cast<uint32_t>(tile.zone_of_gather_point.size());
-  const uint32_t gather_point =
-      scene_.render.gather.reuse ? scratch.gather_points.index(key.gather_point) : count;
-  if (gather_point < count) return gather_point;
-  tile.zone_of_gather_point.push_back(scratch.zones.index(key.zone));
+  visible.gather_point = scene_.render.gather.reuse ? scratch.gather_points.index(key.gather_point) : count;
+  if (visible.gather_point < count) return;
+  tile.zone_of_gather_point.push_back(first_zone + key.zone);
   tile.patch_of_gather_point.push_back(scratch.patches.index(key.patch));
-  tile.zones = scratch.zones.size();
+  tile.zones = scratch.coats.size() * kZones;
   tile.patches = scratch.patches.size();
-  return gather_point;
 }
 
 void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& from, const Hit& hit,
@@ -91,7 +95,7 @@ void VisiblePoints::add(uint32_t pixel, uint32_t sample, const CameraSample& fro
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
-  visible.gather_point = gather_point_of(key, scratch, tile);
+  assign(key, scratch, tile, visible);
   visible.time = from.ray.time;
   visible.random = from.ray.random;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.hit_geometry);

@@ -39,16 +39,16 @@ class VisiblePoints {
 
   struct Scratch {
     DirectLightScratch direct;
-    IndexTable gather_points, patches, zones;  // index of each, by its key
+    IndexTable gather_points, patches, coats;  // index of each, by its key
     RecentGatherPoints strands;
     std::vector<Candidate> candidates;  // of the current point
     std::vector<float> masses;          // sum of mass * deviation over the candidates, by light
 
-    /// Forgets the gather points, patches and zones of the last tile.
+    /// Forgets the gather points, patches and coats of the last tile.
     void clear() {
       gather_points.clear();
       patches.clear();
-      zones.clear();
+      coats.clear();
     }
   };
 
@@ -58,7 +58,7 @@ class VisiblePoints {
            SampleScratch& thread, LightSharing& sharing, TileSamples& tile) const;
 
  private:
-  uint32_t gather_point_of(const GatherPointKey& key, Scratch& scratch, TileSamples& tile) const;
+  void assign(const GatherPointKey& key, Scratch& scratch, TileSamples& tile, VisiblePoint& visible) const;
   void find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch, SampleScratch& thread,
                   VisiblePoint& visible, TileSamples& tile) const;
   void expect_light(const VisiblePoint& visible, uint32_t zone, Scratch& scratch,

@@ -105,11 +105,12 @@ TEST(GatherPointKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
   Hit other = hit;
   other.strand_id = 8;
   EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).gather_point, key.gather_point);
+  EXPECT_EQ(key_of(keys, other, hit_geometry, {0.3f, 0}).coat, key.coat);
   EXPECT_EQ(key_of(keys, other, hit_geometry, {0.3f, 0}).zone, key.zone);
   other = hit;
   other.part = 4;
   EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).gather_point, key.gather_point);
-  EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).zone, key.zone);
+  EXPECT_NE(key_of(keys, other, hit_geometry, {0.3f, 0}).coat, key.coat);
 }
 
 /// A triangle of a face whose unit square is 2 x 1 units of space.
