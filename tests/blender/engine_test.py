@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
                     render, run, set_world)
-from pelage_blender import files, hair_particles, meshes, scene_writer
+from pelage_blender import hair_particles, meshes, particle_keys, scene_writer
+from pelage_blender.scene_folder import SceneFolder
 
 
 class Engine(unittest.TestCase):
@@ -41,8 +42,8 @@ class Engine(unittest.TestCase):
             evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
             system = hair_particles.hair_systems(evaluated, False)[0][1]
             numbers, steps = hair_particles.strand_range(system, False), hair_particles.steps_of(system, False)
-            slow, segments = hair_particles.keys_by_calls(evaluated, system, numbers, steps)
-            fast, same = hair_particles._keys_from_memory(system, numbers, steps)
+            slow, segments = particle_keys.keys_by_calls(evaluated, system, numbers, steps)
+            fast, same = particle_keys._keys_from_memory(system, numbers, steps)
             np.testing.assert_array_equal(segments, same)
             np.testing.assert_allclose(slow, fast, atol=1e-5)  # two roundings of a matrix that is its own inverse
 
@@ -53,10 +54,10 @@ class Engine(unittest.TestCase):
         evaluated = bpy.context.object.evaluated_get(bpy.context.evaluated_depsgraph_get())
         system = hair_particles.hair_systems(evaluated, False)[0][1]
         numbers, steps = hair_particles.strand_range(system, False), hair_particles.steps_of(system, False)
-        with mock.patch.object(hair_particles, "KEY_FLOATS", 17):
-            keys, segments = hair_particles.read_keys(evaluated, system, numbers, steps)
+        with mock.patch.object(particle_keys, "KEY_FLOATS", 17):
+            keys, segments = particle_keys.read_keys(evaluated, system, numbers, steps)
         np.testing.assert_array_equal(segments, steps)
-        np.testing.assert_array_equal(keys, hair_particles.keys_by_calls(evaluated, system, numbers, steps)[0])
+        np.testing.assert_array_equal(keys, particle_keys.keys_by_calls(evaluated, system, numbers, steps)[0])
 
     def test_curves_are_strands(self):
         empty_scene()
@@ -170,7 +171,7 @@ class Engine(unittest.TestCase):
                 ob.keyframe_insert("location", frame=frame)
         scene.render.use_motion_blur, scene.render.motion_blur_shutter, scene.pelage.motion_keys = True, 1, 3
         scene.cycles.motion_blur_position = "START"
-        document = scene_writer.SceneWriter(files.SceneFolder(OUTPUT)).write(
+        document = scene_writer.SceneWriter(SceneFolder(OUTPUT)).write(
             bpy.context.evaluated_depsgraph_get(), (8, 8), lambda whole, part: scene.frame_set(whole, subframe=part))
         for block in (document["camera"], document["lights"]["light"]):
             places = {key: place[0] for key, place in block["position"]["keys"].items()}
@@ -374,12 +375,12 @@ class Mistakes(unittest.TestCase):
         keys = np.zeros((30, 5, 3), np.float32)
         system = mock.Mock()
         system.co_hair.return_value = (0, 0, 0)
-        hair_particles._checked(None, system, range(30), keys, np.full(30, 4))
+        particle_keys._checked(None, system, range(30), keys, np.full(30, 4))
         for value in (1, np.nan):
             wrong = keys.copy()
             wrong[0, 2, 1] = value
             with self.assertRaises(OSError):
-                hair_particles._checked(None, system, range(30), wrong, np.full(30, 4))
+                particle_keys._checked(None, system, range(30), wrong, np.full(30, 4))
 
     def test_a_missing_program_and_a_crash_are_errors(self):
         empty_scene(16, 16)

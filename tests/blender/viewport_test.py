@@ -16,7 +16,7 @@ import bpy
 import inside
 import numpy as np
 from inside import light, pelage_blender
-from pelage_blender import viewport
+from pelage_blender import viewport_sessions
 
 PATIENCE_S = 80
 pelage_blender.register()
@@ -27,7 +27,7 @@ def area():
 
 
 def session():
-    found = list(viewport._sessions)
+    found = list(viewport_sessions._sessions)
     return found[0] if found else None
 
 
@@ -159,7 +159,7 @@ def tick():
     except Exception:
         traceback.print_exc()
         sys.stdout.flush()
-        viewport.close_all()
+        viewport_sessions.close_all()
         os._exit(1)
     return 0.05
 
