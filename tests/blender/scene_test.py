@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes that go to Pelage: instances, creases, and objects of other files."""
+import collections
 import math
 import os
 import pathlib
@@ -10,7 +11,7 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import OUTPUT, camera, empty_scene, exr, hairy, linked, new_path, render, run, set_world
+from inside import OUTPUT, camera, empty_scene, exr, hairy, linked, render, run, set_world
 from mathutils import Euler, Matrix
 from pelage_blender import axes, meshes, surfaces
 from pelage_blender.scene_folder import SceneFolder
@@ -157,6 +158,65 @@ class Instances(unittest.TestCase):
         self.assertEqual(len(document["characters"]), 6)
         self.check_places(document | {"characters": coats}, folder, ball, matrices)
         render(samples=1)
+
+    def test_instances_of_particles_and_nodes_share_meshes(self):
+        """Nodes instance two meshes under the name of one object."""
+        ball = self.ball()
+        bpy.ops.mesh.primitive_plane_add(location=(0, 0, 2))
+        particles = hairy(bpy.context.object, 40)
+        particles.render_type, particles.instance_object, particles.use_rotation_instance = "OBJECT", ball, True
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=5, y_subdivisions=4)
+        modifier = bpy.context.object.modifiers.new("nodes", "NODES")
+        tree = modifier.node_group = bpy.data.node_groups.new("tree", "GeometryNodeTree")
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+        points, out = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+        join = tree.nodes.new("GeometryNodeJoinGeometry")
+        for kind in ("GeometryNodeMeshUVSphere", "GeometryNodeMeshIcoSphere"):
+            mesh, on_points = tree.nodes.new(kind), tree.nodes.new("GeometryNodeInstanceOnPoints")
+            if "Subdivisions" in mesh.inputs:
+                mesh.inputs["Subdivisions"].default_value = 3
+            tree.links.new(points.outputs[0], on_points.inputs["Points"])
+            tree.links.new(mesh.outputs[0], on_points.inputs["Instance"])
+            tree.links.new(on_points.outputs[0], join.inputs[0])
+        tree.links.new(join.outputs[0], out.inputs[0])
+        bpy.context.view_layer.update()
+        document, folder = written()
+        meshes_of = [document["skins"][character["parts"][0]["skin"]]["mesh"]
+                     for name, character in document["characters"].items() if name != "scene"]
+        self.assertEqual(sorted(collections.Counter(meshes_of).values()), [30, 30, 41])  # the ball itself is there, too
+
+
+class Libraries(unittest.TestCase):
+    def test_a_furry_object_of_another_file(self):
+        """Its image is beside its own file, and its coats cannot be edited here."""
+        empty_scene()
+        folder = OUTPUT / "library"
+        (folder / "maps").mkdir(parents=True)
+        (folder / "maps" / "density.exr").write_bytes(exr.encode({"R": np.ones((4, 4), np.float32)}))
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=6)
+        ob = bpy.context.object
+        bpy.ops.object.pelage_fur_add(preset="SHORT")
+        coat = ob.pelage.coats[0]
+        coat.strands, coat.use_density, coat.density.source = 200, True, "IMAGE"
+        coat.density.image = bpy.data.images.load(str(folder / "maps" / "density.exr"))
+        bpy.ops.wm.save_as_mainfile(filepath=str(folder / "animal.blend"))
+        bpy.ops.file.make_paths_relative()
+        bpy.ops.wm.save_mainfile()
+        empty_scene(32, 32).render.film_transparent = True
+        with bpy.data.libraries.load(str(folder / "animal.blend"), link=True) as (_, wanted):
+            wanted.objects = ["Sphere"]
+        bpy.context.collection.objects.link(wanted.objects[0])
+        bpy.context.view_layer.objects.active = wanted.objects[0]
+        camera()
+        set_world(1)
+        self.assertEqual(wanted.objects[0].pelage.coats[0].density.image.filepath_raw, "//maps/density.exr")
+        density = next(iter(written()[0]["grooms"].values()))["density"]
+        self.assertEqual(pathlib.Path(density["map"]), folder / "maps" / "density.exr")
+        self.assertGreater(render(samples=1)["A"].mean(), 0.05)
+        for operator in (bpy.ops.object.pelage_fur_add, bpy.ops.object.pelage_fur_remove, bpy.ops.object.pelage_operator_edit,
+                         bpy.ops.object.pelage_value_set):
+            self.assertFalse(operator.poll())
 
 
 class Creases(unittest.TestCase):

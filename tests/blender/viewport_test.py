@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 import traceback
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
@@ -122,6 +123,16 @@ def steps():
     coat.use_density = False
     bpy.data.objects["Sphere"].update_tag()
     yield lambda: not session().problem and finished()
+    # A class: the traceback of a single exception would keep the engine alive.
+    with mock.patch.object(type(first), "follow_view", side_effect=RuntimeError) as failing:
+        area().tag_redraw()
+        yield lambda: failing.called
+        drawn, since = failing.call_count, time.monotonic()
+        yield lambda: time.monotonic() - since > 0.5
+        assert failing.call_count - drawn < 5, failing.call_count  # Blender does not draw again and again
+    area().tag_redraw()
+    yield finished
+    assert session() is first and first.client.process is process
     os.kill(children(process.pid)[0], signal.SIGSEGV)
     yield lambda: first.client.ended and "signal 11" in session().status()
     bpy.data.objects["Sphere"].update_tag()  # an edit starts the program again

@@ -68,6 +68,7 @@ class ViewportSession:
         if self.client is not None and self.client.ended:
             self.client.close()
             self.client, self.shown = None, -1
+            self.announced = -1, ""  # the new program counts its pictures from the start
         if self.client is None:
             scene = depsgraph.scene
             threads = scene.render.threads if scene.render.threads_mode == "FIXED" else 0
