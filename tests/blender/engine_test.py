@@ -8,9 +8,9 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
+from inside import (OUTPUT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
                     render, run, set_world)
-from pelage_blender import hair_particles, meshes, particle_keys, scene_writer
+from pelage_blender import hair_particles, images, meshes, particle_keys, scene_writer
 from pelage_blender.scene_folder import SceneFolder
 
 
@@ -182,7 +182,11 @@ class Engine(unittest.TestCase):
         scene = empty_scene()
         tree = scene.world.node_tree
         node, mapping = tree.nodes.new("ShaderNodeTexEnvironment"), tree.nodes.new("ShaderNodeMapping")
-        node.image = bpy.data.images.load(str(ROOT / "examples" / "studio.hdr"))
+        across, up = np.meshgrid(np.linspace(0, 2 * np.pi, 64, endpoint=False), np.linspace(1, 0, 32))
+        channels = {"R": 1 + np.sin(across), "G": up, "B": 1 + np.cos(across)}
+        path = new_path("exr")
+        path.write_bytes(exr.encode({name: values.astype(np.float32) for name, values in channels.items()}))
+        node.image = bpy.data.images.load(str(path))
         tree.links.new(node.outputs["Color"], tree.nodes["Background"].inputs["Color"])
         tree.links.new(mapping.outputs["Vector"], node.inputs["Vector"])
         coordinates = tree.nodes.new("ShaderNodeTexCoord")
@@ -278,7 +282,10 @@ class Engine(unittest.TestCase):
         tree.links.new(node.outputs["Color"], tree.nodes["Diffuse BSDF"].inputs["Color"])
         camera((0, 0, 3))
         set_world(1)
-        for frame, value, cyclic in ((1, 0.2, False), (2, 0.8, False), (5, 0.2, True), (0, 0.2, False)):
+        for frame, number, cyclic in ((1, 1, False), (2, 2, False), (5, 1, True), (0, 1, False), (3, 2, False)):
+            file = images.sequence_file(OUTPUT / "seq0001.exr", frame, start=1, count=2, offset=0, cyclic=cyclic)
+            self.assertEqual(file.name, f"seq{number:04d}.exr")
+        for frame, value, cyclic in ((2, 0.8, False), (5, 0.2, True)):
             user.use_cyclic = cyclic
             scene.frame_set(frame)
             # In a white room, a diffuse surface has its own colour; four samples of 64 pixels have a noise of 0.01.
@@ -370,17 +377,6 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()
         self.assertIn("camera", str(caught.exception).lower())
-
-    def test_a_layout_of_memory_with_other_points_is_noticed(self):
-        keys = np.zeros((30, 5, 3), np.float32)
-        system = mock.Mock()
-        system.co_hair.return_value = (0, 0, 0)
-        particle_keys._checked(None, system, range(30), keys, np.full(30, 4))
-        for value in (1, np.nan):
-            wrong = keys.copy()
-            wrong[0, 2, 1] = value
-            with self.assertRaises(OSError):
-                particle_keys._checked(None, system, range(30), wrong, np.full(30, 4))
 
     def test_a_missing_program_and_a_crash_are_errors(self):
         empty_scene(16, 16)

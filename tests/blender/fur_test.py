@@ -150,7 +150,7 @@ class Coats(unittest.TestCase):
         self.assertGreater(upper[:12].sum(), 0.7 * bald[:12].sum())
 
     def test_an_image_is_a_map(self):
-        ob = furry("LONG")
+        ob = furry("LONG", 500)
         image = bpy.data.images.new("length", 2, 2, float_buffer=True)
         image.pixels.foreach_set(np.tile(np.array([0.5, 0, 0, 1], np.float32), 4))
         length = next(o for o in ob.pelage.coats[0].operators if o.kind == "length")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes that go to Pelage: instances, creases, and objects of other files."""
+"""Scenes that go to Pelage: instances, creases, particle hair, and objects of other files."""
 import collections
 import math
 import os
@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from inside import OUTPUT, camera, empty_scene, exr, hairy, linked, render, run, set_world
 from mathutils import Euler, Matrix
-from pelage_blender import axes, meshes, surfaces
+from pelage_blender import axes, meshes, particle_keys, surfaces
 from pelage_blender.scene_folder import SceneFolder
 from pelage_blender.scene_writer import SceneWriter
 
@@ -217,6 +217,19 @@ class Libraries(unittest.TestCase):
         for operator in (bpy.ops.object.pelage_fur_add, bpy.ops.object.pelage_fur_remove, bpy.ops.object.pelage_operator_edit,
                          bpy.ops.object.pelage_value_set):
             self.assertFalse(operator.poll())
+
+
+class ParticleKeys(unittest.TestCase):
+    def test_a_layout_of_memory_with_other_points_is_noticed(self):
+        keys = np.zeros((30, 5, 3), np.float32)
+        system = mock.Mock()
+        system.co_hair.return_value = (0, 0, 0)
+        particle_keys._checked(None, system, range(30), keys, np.full(30, 4))
+        for value in (1, np.nan):
+            wrong = keys.copy()
+            wrong[0, 2, 1] = value
+            with self.assertRaises(OSError):
+                particle_keys._checked(None, system, range(30), wrong, np.full(30, 4))
 
 
 class Creases(unittest.TestCase):
