@@ -8,9 +8,10 @@ from unittest import mock
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from inside import (OUTPUT, ROOT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
+from inside import (OUTPUT, camera, empty_scene, exr, grey_plane, hairy, left_folders, light, material, mean, new_path,
                     render, run, set_world)
-from pelage_blender import files, hair_particles, meshes, scene_writer
+from pelage_blender import hair_particles, images, meshes, particle_keys, scene_writer
+from pelage_blender.scene_folder import SceneFolder
 
 
 class Engine(unittest.TestCase):
@@ -41,8 +42,8 @@ class Engine(unittest.TestCase):
             evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
             system = hair_particles.hair_systems(evaluated, False)[0][1]
             numbers, steps = hair_particles.strand_range(system, False), hair_particles.steps_of(system, False)
-            slow, segments = hair_particles.keys_by_calls(evaluated, system, numbers, steps)
-            fast, same = hair_particles._keys_from_memory(system, numbers, steps)
+            slow, segments = particle_keys.keys_by_calls(evaluated, system, numbers, steps)
+            fast, same = particle_keys._keys_from_memory(system, numbers, steps)
             np.testing.assert_array_equal(segments, same)
             np.testing.assert_allclose(slow, fast, atol=1e-5)  # two roundings of a matrix that is its own inverse
 
@@ -53,10 +54,10 @@ class Engine(unittest.TestCase):
         evaluated = bpy.context.object.evaluated_get(bpy.context.evaluated_depsgraph_get())
         system = hair_particles.hair_systems(evaluated, False)[0][1]
         numbers, steps = hair_particles.strand_range(system, False), hair_particles.steps_of(system, False)
-        with mock.patch.object(hair_particles, "KEY_FLOATS", 17):
-            keys, segments = hair_particles.read_keys(evaluated, system, numbers, steps)
+        with mock.patch.object(particle_keys, "KEY_FLOATS", 17):
+            keys, segments = particle_keys.read_keys(evaluated, system, numbers, steps)
         np.testing.assert_array_equal(segments, steps)
-        np.testing.assert_array_equal(keys, hair_particles.keys_by_calls(evaluated, system, numbers, steps)[0])
+        np.testing.assert_array_equal(keys, particle_keys.keys_by_calls(evaluated, system, numbers, steps)[0])
 
     def test_curves_are_strands(self):
         empty_scene()
@@ -170,7 +171,7 @@ class Engine(unittest.TestCase):
                 ob.keyframe_insert("location", frame=frame)
         scene.render.use_motion_blur, scene.render.motion_blur_shutter, scene.pelage.motion_keys = True, 1, 3
         scene.cycles.motion_blur_position = "START"
-        document = scene_writer.SceneWriter(files.SceneFolder(OUTPUT)).write(
+        document = scene_writer.SceneWriter(SceneFolder(OUTPUT)).write(
             bpy.context.evaluated_depsgraph_get(), (8, 8), lambda whole, part: scene.frame_set(whole, subframe=part))
         for block in (document["camera"], document["lights"]["light"]):
             places = {key: place[0] for key, place in block["position"]["keys"].items()}
@@ -181,7 +182,11 @@ class Engine(unittest.TestCase):
         scene = empty_scene()
         tree = scene.world.node_tree
         node, mapping = tree.nodes.new("ShaderNodeTexEnvironment"), tree.nodes.new("ShaderNodeMapping")
-        node.image = bpy.data.images.load(str(ROOT / "examples" / "studio.hdr"))
+        across, up = np.meshgrid(np.linspace(0, 2 * np.pi, 64, endpoint=False), np.linspace(1, 0, 32))
+        channels = {"R": 1 + np.sin(across), "G": up, "B": 1 + np.cos(across)}
+        path = new_path("exr")
+        path.write_bytes(exr.encode({name: values.astype(np.float32) for name, values in channels.items()}))
+        node.image = bpy.data.images.load(str(path))
         tree.links.new(node.outputs["Color"], tree.nodes["Background"].inputs["Color"])
         tree.links.new(mapping.outputs["Vector"], node.inputs["Vector"])
         coordinates = tree.nodes.new("ShaderNodeTexCoord")
@@ -277,7 +282,10 @@ class Engine(unittest.TestCase):
         tree.links.new(node.outputs["Color"], tree.nodes["Diffuse BSDF"].inputs["Color"])
         camera((0, 0, 3))
         set_world(1)
-        for frame, value, cyclic in ((1, 0.2, False), (2, 0.8, False), (5, 0.2, True), (0, 0.2, False)):
+        for frame, number, cyclic in ((1, 1, False), (2, 2, False), (5, 1, True), (0, 1, False), (3, 2, False)):
+            file = images.sequence_file(OUTPUT / "seq0001.exr", frame, start=1, count=2, offset=0, cyclic=cyclic)
+            self.assertEqual(file.name, f"seq{number:04d}.exr")
+        for frame, value, cyclic in ((2, 0.8, False), (5, 0.2, True)):
             user.use_cyclic = cyclic
             scene.frame_set(frame)
             # In a white room, a diffuse surface has its own colour; four samples of 64 pixels have a noise of 0.01.
@@ -369,17 +377,6 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()
         self.assertIn("camera", str(caught.exception).lower())
-
-    def test_a_layout_of_memory_with_other_points_is_noticed(self):
-        keys = np.zeros((30, 5, 3), np.float32)
-        system = mock.Mock()
-        system.co_hair.return_value = (0, 0, 0)
-        hair_particles._checked(None, system, range(30), keys, np.full(30, 4))
-        for value in (1, np.nan):
-            wrong = keys.copy()
-            wrong[0, 2, 1] = value
-            with self.assertRaises(OSError):
-                hair_particles._checked(None, system, range(30), wrong, np.full(30, 4))
 
     def test_a_missing_program_and_a_crash_are_errors(self):
         empty_scene(16, 16)

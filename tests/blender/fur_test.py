@@ -10,9 +10,10 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import numpy as np
-from mathutils import Vector
+from mathutils import Euler, Vector
 from inside import OUTPUT, camera, empty_scene, exr, hairy, left_folders, new_path, render, run, set_world
-from pelage_blender import coat_presets, files, fur_operators, meshes, preferences, schema, scene_writer
+from pelage_blender import axes, coat_presets, fur_operators, meshes, preferences, schema, scene_writer
+from pelage_blender.scene_folder import SceneFolder
 
 LAYERS = ["R", "G", "B"]
 
@@ -36,7 +37,7 @@ def document():
     """The scene that goes to Pelage."""
     folder = OUTPUT / f"document{len(os.listdir(OUTPUT))}"
     folder.mkdir()
-    writer = scene_writer.SceneWriter(files.SceneFolder(folder))
+    writer = scene_writer.SceneWriter(SceneFolder(folder))
     return writer.write(bpy.context.evaluated_depsgraph_get(), (32, 32))
 
 
@@ -149,7 +150,7 @@ class Coats(unittest.TestCase):
         self.assertGreater(upper[:12].sum(), 0.7 * bald[:12].sum())
 
     def test_an_image_is_a_map(self):
-        ob = furry("LONG")
+        ob = furry("LONG", 500)
         image = bpy.data.images.new("length", 2, 2, float_buffer=True)
         image.pixels.foreach_set(np.tile(np.array([0.5, 0, 0, 1], np.float32), 4))
         length = next(o for o in ob.pelage.coats[0].operators if o.kind == "length")
@@ -265,12 +266,15 @@ class Coats(unittest.TestCase):
         for scale in ((1, 1, 1), (-1, 1, 1), (1, -2, 1), (1, 1, -1), (-1, -1, -1), (-1, 1, -1)):
             ob.scale = scale
             bpy.context.view_layer.update()
-            groom = next(iter(document()["grooms"].values()))
+            made = document()
             folder = OUTPUT / f"document{len(os.listdir(OUTPUT)) - 1}"
+            groom, block = next(iter(made["grooms"].values())), made["characters"]["Sphere"]["transform"]
             direction = next(o["comb"]["direction"] for o in groom["operators"] if "comb" in o)
-            rest, pose = (np.array([line.split()[1:4] for line in path.read_text().splitlines() if line.startswith("v ")], float)
-                          for path in (folder / "Sphere.obj", next(folder.glob("*pose.1.obj"))))
-            turn = np.linalg.lstsq(rest, pose, rcond=None)[0].T
+            lines = (folder / "Sphere.obj").read_text().splitlines()
+            rest = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+            turn = np.array(Euler(np.radians(block["rotate"])).to_matrix())
+            truth = axes.to_pelage(axes.transformed(meshes.vertices_of(ob.data), ob.matrix_world))
+            np.testing.assert_allclose(rest @ turn.T + block["translate"], truth, atol=1e-5, err_msg=str(scale))
             np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-5, err_msg=str(scale))
             self.assertAlmostEqual(np.linalg.det(turn), 1, places=4)
             stretch = np.array([1.0, 2.0, 3.0]) / np.abs(scale)  # the direction is one of the size in the world

@@ -16,7 +16,7 @@ from mathutils import Vector
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "integrations" / "blender"))
 import pelage_blender  # noqa: E402
-from pelage_blender import exr, files  # noqa: E402
+from pelage_blender import exr, temporary_folders  # noqa: E402
 
 OUTPUT = pathlib.Path(tempfile.mkdtemp(prefix="pelage-test-"))
 atexit.register(shutil.rmtree, OUTPUT, ignore_errors=True)
@@ -37,7 +37,8 @@ def run():
 
 def left_folders():
     """Folders that the add-on of this process has left behind."""
-    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith(f"{files.owner_prefix()}{os.getpid()}-")]
+    mine = f"{temporary_folders.owner_prefix()}{os.getpid()}-"
+    return [name for name in os.listdir(tempfile.gettempdir()) if name.startswith(mine)]
 
 
 def empty_scene(width=48, height=48, new=True):

@@ -19,8 +19,10 @@ ADDON = ROOT / "integrations" / "blender" / "pelage_blender"
 package = types.ModuleType("addon")
 package.__path__ = [str(ADDON)]
 sys.modules["addon"] = package
-axes, exr, files, hair_color, process, schema = (importlib.import_module(f"addon.{name}")
-                                                 for name in ("axes", "exr", "files", "hair_color", "process", "schema"))
+axes, cage, exr, geometry_files, hair_color, names, process, scene_folder, scene_json, schema, temporary_folders = (
+    importlib.import_module(f"addon.{name}") for name in (
+        "axes", "cage", "exr", "geometry_files", "hair_color", "names", "process", "scene_folder", "scene_json", "schema",
+        "temporary_folders"))
 PROGRAM = os.environ.get("PELAGE_PROGRAM", "pelage")
 
 
@@ -133,32 +135,32 @@ class Schema(unittest.TestCase):
 
 class Files(unittest.TestCase):
     def test_a_line_leads_to_its_keys(self):
-        text = files.document_text({"a": 1, "grooms": {"coat \"ä\": {": {"operators": [{"length": {"value": 2}},
+        text = scene_json.document_text({"a": 1, "grooms": {"coat \"ä\": {": {"operators": [{"length": {"value": 2}},
                                                                                {"clump": {"amount": [3, 4.5]}}]}}, "z": []})
-        paths = {text.splitlines()[i].strip(): files.path_of_line(text, i + 1) for i in range(len(text.splitlines()))}
+        paths = {text.splitlines()[i].strip(): scene_json.path_of_line(text, i + 1) for i in range(len(text.splitlines()))}
         self.assertEqual(paths['"value": 2'], 'grooms.coat "ä": {.operators.0.length.value')
         self.assertEqual(paths["4.5"], 'grooms.coat "ä": {.operators.1.clump.amount.1')
         self.assertEqual(paths['"z": []'], "z")
 
     def test_names_are_different_and_without_dots(self):
         taken = set()
-        self.assertEqual([files.pelage_name(n, taken) for n in ("a.1", "a_1", "a.1", " ")], ["a_1", "a_1 2", "a_1 3", "unnamed"])
+        self.assertEqual([names.pelage_name(n, taken) for n in ("a.1", "a_1", "a.1", " ")], ["a_1", "a_1 2", "a_1 3", "unnamed"])
 
     def test_names_of_lights_leave_room_for_those_of_lobes(self):
         taken = set()
-        names = [files.light_name("ä" * 60, taken) for _ in range(12)]
-        self.assertEqual(len(set(names)), 12)
-        self.assertLessEqual(max(len(f"ViewLayer.{name}.secondary.R".encode()) for name in names), 64)
-        self.assertEqual(names[11], "ä" * 18 + " 12")
+        found = [names.light_name("ä" * 60, taken) for _ in range(12)]
+        self.assertEqual(len(set(found)), 12)
+        self.assertLessEqual(max(len(f"ViewLayer.{name}.secondary.R".encode()) for name in found), 64)
+        self.assertEqual(found[11], "ä" * 18 + " 12")
 
     def test_meshes_and_strands_are_those_of_pelage(self):
         with tempfile.TemporaryDirectory() as name:
-            folder = files.SceneFolder(pathlib.Path(name))
+            folder = scene_folder.SceneFolder(pathlib.Path(name))
             points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0.5]])
-            text = files.obj_text(points, np.array([4, 3]), np.array([0, 1, 2, 3, 1, 4, 2]), np.zeros((7, 2)),
+            text = geometry_files.obj_text(points, np.array([4, 3]), np.array([0, 1, 2, 3, 1, 4, 2]), np.zeros((7, 2)),
                                   [("slot0", np.array([0])), ("slot1", np.array([1]))], np.full((5, 3), 0.5))
             folder.put("a.obj", text)
-            strands = files.hair_bytes(np.arange(15).reshape(5, 3), np.full(5, 0.1), np.array([2, 3]))
+            strands = geometry_files.hair_bytes(np.arange(15).reshape(5, 3), np.full(5, 0.1), np.array([2, 3]))
             folder.put("a.hair", strands)
             info = [subprocess.run([PROGRAM, "info", f"{name}/{file}"], capture_output=True, text=True, check=True).stdout
                     for file in ("a.obj", "a.hair")]
@@ -169,19 +171,20 @@ class Files(unittest.TestCase):
 
     def test_folders_of_processes_that_are_gone_are_removed(self):
         with tempfile.TemporaryDirectory() as name, mock.patch.object(tempfile, "tempdir", name):
-            mine = files.new_folder()
+            mine = temporary_folders.new_folder()
             gone = subprocess.Popen(["true"])
             gone.wait()
-            (pathlib.Path(name) / f"{files.owner_prefix()}{gone.pid}-abc").mkdir()
-            others = [f"{files.PREFIX}other", f"{files.PREFIX}000000000000-{gone.pid}-abc"]  # the second of another machine
+            (pathlib.Path(name) / f"{temporary_folders.owner_prefix()}{gone.pid}-abc").mkdir()
+            prefix = temporary_folders.PREFIX
+            others = [f"{prefix}other", f"{prefix}000000000000-{gone.pid}-abc"]  # the second is of another machine
             for other in others:
                 (pathlib.Path(name) / other).mkdir()
-            files.remove_stale_folders()
+            temporary_folders.remove_stale_folders()
             self.assertEqual(sorted(os.listdir(name)), sorted([os.path.basename(mine), *others]))
 
     def test_only_changes_are_written(self):
         with tempfile.TemporaryDirectory() as name:
-            folder = files.SceneFolder(pathlib.Path(name))
+            folder = scene_folder.SceneFolder(pathlib.Path(name))
             folder.put("a", "text")
             first = os.stat(f"{name}/a").st_ino
             folder.put("a", "text")
@@ -189,10 +192,9 @@ class Files(unittest.TestCase):
             folder.put("a", "other")
             self.assertEqual(pathlib.Path(name, "a").read_text(), "other")
 
-
     def test_texts_are_made_only_when_their_arrays_change(self):
         with tempfile.TemporaryDirectory() as name:
-            folder, path = files.SceneFolder(pathlib.Path(name)), pathlib.Path(name, "a")
+            folder, path = scene_folder.SceneFolder(pathlib.Path(name)), pathlib.Path(name, "a")
             folder.put_made("a", [np.zeros((2, 3)), None], lambda: "first")
             folder.put_made("a", [np.zeros((2, 3)), None], lambda: self.fail("made again"))
             for other in ([np.zeros((3, 2)), None], [np.ones((2, 3)), None], [np.zeros((2, 3)), "slot"]):
@@ -207,7 +209,7 @@ class Process(unittest.TestCase):
     def test_a_mistake_is_named_by_its_keys(self):
         with tempfile.TemporaryDirectory() as name:
             scene = pathlib.Path(name) / "scene.yaml"
-            scene.write_text(files.document_text({"pelage": 1, "lights": {"key": {"type": "point", "powr": 1}}}))
+            scene.write_text(scene_json.document_text({"pelage": 1, "lights": {"key": {"type": "point", "powr": 1}}}))
             with self.assertRaises(process.PelageFailed) as caught:
                 process.run_render([PROGRAM, "render", str(scene), "-o", f"{name}/a.exr", "--progress", "json"], scene,
                                    lambda: False, lambda stage, fraction: None)

@@ -10,13 +10,14 @@ import subprocess
 import sys
 import time
 import traceback
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bpy
 import inside
 import numpy as np
 from inside import light, pelage_blender
-from pelage_blender import viewport
+from pelage_blender import viewport_sessions
 
 PATIENCE_S = 80
 pelage_blender.register()
@@ -27,7 +28,7 @@ def area():
 
 
 def session():
-    found = list(viewport._sessions)
+    found = list(viewport_sessions._sessions)
     return found[0] if found else None
 
 
@@ -122,6 +123,16 @@ def steps():
     coat.use_density = False
     bpy.data.objects["Sphere"].update_tag()
     yield lambda: not session().problem and finished()
+    # A class: the traceback of a single exception would keep the engine alive.
+    with mock.patch.object(type(first), "follow_view", side_effect=RuntimeError) as failing:
+        area().tag_redraw()
+        yield lambda: failing.called
+        drawn, since = failing.call_count, time.monotonic()
+        yield lambda: time.monotonic() - since > 0.5
+        assert failing.call_count - drawn < 5, failing.call_count  # Blender does not draw again and again
+    area().tag_redraw()
+    yield finished
+    assert session() is first and first.client.process is process
     os.kill(children(process.pid)[0], signal.SIGSEGV)
     yield lambda: first.client.ended and "signal 11" in session().status()
     bpy.data.objects["Sphere"].update_tag()  # an edit starts the program again
@@ -159,7 +170,7 @@ def tick():
     except Exception:
         traceback.print_exc()
         sys.stdout.flush()
-        viewport.close_all()
+        viewport_sessions.close_all()
         os._exit(1)
     return 0.05
 

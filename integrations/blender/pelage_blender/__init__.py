@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from . import engine, fur_operators, fur_panel, groom, preferences, settings, viewport
+from . import (borrowed_panels, coat_properties, engine, fur_operators, fur_panel, preferences, settings, settings_panels,
+               step_operators, viewport_sessions, write_yaml)
 
 bl_info = {
     "name": "Pelage",
@@ -15,7 +16,8 @@ bl_info = {
     "description": "Grows fur on meshes and renders it",
     "category": "Render",
 }
-MODULES = (preferences, settings, groom, fur_operators, fur_panel, viewport, engine)
+MODULES = (preferences, settings, settings_panels, coat_properties, fur_operators, step_operators, write_yaml, fur_panel,
+           viewport_sessions, engine, borrowed_panels)
 
 
 def register() -> None:

@@ -30,7 +30,7 @@ def numbers(values: Any) -> list[float]:
 
 
 def place(point: Sequence[float]) -> list[float]:
-    """A point or direction of Blender as the text of a scene states it."""
+    """A point or direction of Blender as numbers of a scene file."""
     return numbers(to_pelage(np.asarray(point, np.float64)))
 
 

@@ -69,16 +69,3 @@ def scene_camera(camera: bpy.types.Object, depsgraph: bpy.types.Depsgraph, size:
     if not math.isclose(aspect, 1):
         notes.add("pixels that are not square: the picture has square pixels")
     return placement(camera.matrix_world, 10.0) | optics(camera, projection, notes)
-
-
-def moving(blocks: list[dict[str, Any]], names: tuple[str, ...]) -> dict[str, Any]:
-    """A camera or a light that moves from frame 1 to frame 2 of the Pelage scene, which are the ends of the shutter.
-
-    blocks: one per motion key; the rest is the first's.
-    """
-    result = dict(blocks[0])
-    for name in names:
-        values = [block.get(name, result[name]) for block in blocks] if name in result else []
-        if any(value != values[0] for value in values):
-            result[name] = {"keys": {f"{1 + i / (len(values) - 1):.7g}": value for i, value in enumerate(values)}}
-    return result

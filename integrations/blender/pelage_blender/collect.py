@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a depsgraph shows at one time, and how it moves over the shutter."""
+"""Reads the visible surfaces, hair and lights of a depsgraph, at one time or at several times of the shutter."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -12,51 +12,62 @@ import numpy as np
 
 from . import groom
 from .axes import to_pelage, transformed
+from .cage import Cage, turned_over
 from .hair_curves import read_curves
 from .hair_particles import HairStrands, hair_systems, read_hair
 from .lights import light_block
-from .meshes import Cage, cage_of, pose_of, turned_over
+from .meshes import cage_of, pose_of
 
 SOLID = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 Key = tuple[str, tuple[Any, ...]]
+"""The name of an object, with what tells its instances apart."""
 Notes = set[str]
 
 
 @dataclass
 class Hair:
     name: str
-    strands: HairStrands
+    strands: HairStrands  # hair of a surface in the space of its object; hair Curves in world space
     material: bpy.types.Material | None
 
 
 @dataclass(eq=False)
-class Item:
-    """A surface with its hair."""
+class Asset:
+    """A surface with its hair, in the space of its object and with the axes of Blender. Its instances share it."""
     name: str
     original: bpy.types.Object
     cage: Cage
-    matrix: mathutils.Matrix
     materials: list[bpy.types.Material | None]
     shown: bool
-    poses: list[np.ndarray]  # per motion key: points (n, 3) in world space and with the axes of Pelage
+    poses: list[np.ndarray]  # per motion key: points (n, 3)
     hair: list[Hair] = field(default_factory=list)
-    guides: dict[str, HairStrands] = field(default_factory=dict)  # parents of particle hair that shapes coats, in world space
+    guides: dict[str, HairStrands] = field(default_factory=dict)  # parents of particle hair that shapes coats
 
-    @property
-    def moves(self) -> bool:
-        return any(not np.array_equal(self.poses[0], pose) for pose in self.poses[1:])
+    def material_of(self, slot: int) -> bpy.types.Material | None:
+        return self.materials[min(slot, len(self.materials) - 1)]
+
+
+@dataclass(eq=False)
+class Item:
+    """An asset at a place: an object, or one of its instances."""
+    asset: Asset
+    matrices: list[mathutils.Matrix]  # per motion key
+
+    def poses(self) -> list[np.ndarray]:
+        """Points (n, 3) per motion key, in world space and with the axes of Pelage."""
+        return [to_pelage(transformed(pose, matrix)) for pose, matrix in zip(self.asset.poses, self.matrices)]
 
 
 @dataclass
 class Loose:
-    """Hair Curves; `surface` is the key of the item that they grow on."""
+    """Hair Curves; `surface` is the key of the item that they grow on, if any."""
     hair: Hair
     surface: Key | None
 
 
 @dataclass
 class Stage:
-    """Everything that a scene file contains."""
+    """Surfaces, hair and lights of a scene; the writer turns them into blocks."""
     items: dict[Key, Item] = field(default_factory=dict)
     loose: list[Loose] = field(default_factory=list)
     lights: dict[Key, list[dict[str, Any]]] = field(default_factory=dict)  # per motion key
@@ -76,8 +87,14 @@ def _material(ob: bpy.types.Object, slot: int) -> bpy.types.Material | None:
     return slots[min(max(slot, 0), len(slots) - 1)].material if len(slots) else None
 
 
-def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, render: bool) -> None:
-    matrix = instance.matrix_world.copy()
+def _asset_key(ob: bpy.types.Object, instance: Any) -> Key:
+    """Instances with the same key share an asset. Nodes may instance several meshes under the name of one object."""
+    data = ob.data.as_pointer() if ob.data is not None else 0
+    return ob.name_full, (data, instance.matrix_world.determinant() < 0, instance.show_self, instance.show_particles)
+
+
+def _read_asset(ob: bpy.types.Object, instance: Any, render: bool) -> Asset | None:
+    """The surface of an object, or None if it has none. Faces are turned over if the instance is mirrored."""
     systems = hair_systems(ob, render) if instance.show_particles and ob.type == "MESH" else []
     mesh = ob.to_mesh()
     try:
@@ -87,35 +104,38 @@ def _add_item(stage: Stage, key: Key, ob: bpy.types.Object, instance: Any, rende
     finally:
         ob.to_mesh_clear()
     if cage is None:
-        return
-    if matrix.determinant() < 0:
+        return None
+    if instance.matrix_world.determinant() < 0:
         turned_over(cage)
     materials = [_material(ob, int(slot)) for slot in range(max(1, len(ob.material_slots)))]
-    item = Item(ob.name, ob.original, cage, matrix, materials, bool(instance.show_self),
-                [to_pelage(transformed(cage.points, matrix))])
+    asset = Asset(ob.name, ob.original, cage, materials, bool(instance.show_self), [cage.points])
     guides = {coat.guide_hair for coat in ob.original.pelage.coats if coat.enabled}
     for _, system in systems:
-        if system.name in guides:
-            parents = read_hair(ob, system, render, parents=True)
-            if parents is not None:
-                item.guides[system.name] = parents
+        shapes = system.name in guides
+        strands = read_hair(ob, system, render, parents=shapes)
+        if strands is None:
             continue
-        strands = read_hair(ob, system, render)
-        if strands is not None:
-            if instance.is_instance:
-                local = transformed(strands.points, ob.matrix_world.inverted_safe())
-                strands.points = transformed(local, matrix)
-            item.hair.append(Hair(system.name, strands, _material(ob, system.settings.material - 1)))
-    stage.items[key] = item
+        strands = strands.transformed(ob.matrix_world.inverted_safe())
+        if shapes:
+            asset.guides[system.name] = strands
+        else:
+            asset.hair.append(Hair(system.name, strands, _material(ob, system.settings.material - 1)))
+    return asset
 
 
 def collect(depsgraph: bpy.types.Depsgraph, notes: Notes, check: Callable[[], None] = lambda: None) -> Stage:
-    """The scene at the present time of the depsgraph; `check` is called before each object, and what it raises ends this."""
+    """Reads the scene at the current time of the depsgraph. `check` is called before each object; it may raise to stop."""
     stage, render = Stage(), depsgraph.mode == "RENDER"
+    assets: dict[Key, Asset | None] = {}
     for key, ob, instance in _instances(depsgraph):
         check()
         if ob.type in SOLID and (instance.show_self or instance.show_particles):
-            _add_item(stage, key, ob, instance, render)
+            shared = _asset_key(ob, instance)
+            if shared not in assets:
+                assets[shared] = _read_asset(ob, instance, render)
+            asset = assets[shared]
+            if asset is not None:
+                stage.items[key] = Item(asset, [instance.matrix_world.copy()])
         elif ob.type == "CURVES" and instance.show_self:
             strands = read_curves(ob.data, instance.matrix_world)
             if strands is not None:
@@ -132,43 +152,34 @@ def collect(depsgraph: bpy.types.Depsgraph, notes: Notes, check: Callable[[], No
 
 
 def add_pose(stage: Stage, depsgraph: bpy.types.Depsgraph, notes: Notes) -> None:
-    """Adds the present time of the depsgraph as one more motion key. What is gone or has changed its topology stays."""
+    """Adds a motion key at the current time of the depsgraph. Objects that are gone or have another topology stay."""
     seen: set[Key] = set()
+    read: dict[Asset, bool] = {}  # whether the topology is the same
     for key, ob, instance in _instances(depsgraph):
         if key in stage.items:
-            item, mesh = stage.items[key], ob.to_mesh()
-            points = pose_of(ob, mesh, item.cage) if mesh is not None else None
-            ob.to_mesh_clear()
-            if points is not None:
-                item.poses.append(to_pelage(transformed(points, instance.matrix_world)))
+            item = stage.items[key]
+            if item.asset not in read:
+                read[item.asset] = _add_shape(item.asset, ob)
+            if read[item.asset]:
+                item.matrices.append(instance.matrix_world.copy())
                 seen.add(key)
         elif key in stage.lights:
             block = light_block(ob, instance.matrix_world, notes)
             if block is not None:
                 stage.lights[key].append(block)
                 seen.add(key)
+    for asset in {item.asset for item in stage.items.values()} - read.keys():
+        asset.poses.append(asset.poses[-1])
     for key in stage.items.keys() - seen:
-        stage.items[key].poses.append(stage.items[key].poses[-1])
+        stage.items[key].matrices.append(stage.items[key].matrices[-1])
     for key in stage.lights.keys() - seen:
         stage.lights[key].append(stage.lights[key][-1])
 
 
-def shutter_times(scene: bpy.types.Scene, keys: int) -> list[float]:
-    """Times of the motion keys in frames, relative to the frame; one time without motion blur."""
-    if not scene.render.use_motion_blur or scene.render.motion_blur_shutter <= 0:
-        return [0.0]
-    width = scene.render.motion_blur_shutter
-    position = getattr(getattr(scene, "cycles", None), "motion_blur_position", "CENTER")
-    start = {"START": 0.0, "CENTER": -0.5 * width, "END": -width}[position]
-    return [start + width * i / (keys - 1) for i in range(keys)]
-
-
-def visit(times: list[float], frame: float, frame_set: Callable[[int, float], None]) -> Iterator[float]:
-    """Sets the scene to each of the times, and back to the frame at the end."""
-    try:
-        for time in times:
-            whole = int(np.floor(frame + time))
-            frame_set(whole, frame + time - whole)
-            yield time
-    finally:
-        frame_set(int(np.floor(frame)), frame - np.floor(frame))
+def _add_shape(asset: Asset, ob: bpy.types.Object) -> bool:
+    """Adds the current shape of an object to the poses of its asset; returns whether the topology is still the same."""
+    mesh = ob.to_mesh()
+    points = pose_of(ob, mesh, asset.cage) if mesh is not None else None
+    ob.to_mesh_clear()
+    asset.poses.append(asset.poses[-1] if points is None else points)
+    return points is not None

@@ -6,39 +6,20 @@ import math
 import pathlib
 import shutil
 import traceback
-from typing import Any
 
 import bpy
-import numpy as np
 
-from . import exr, passes, preferences, process, viewport
-from .files import SceneFolder, new_folder
+from . import exr, passes, preferences, process, viewport_sessions
+from .picture_size import border, picture_size
+from .scene_folder import SceneFolder
 from .scene_writer import SceneWriter
 from .settings import ENGINE
+from .temporary_folders import new_folder
+from .viewport import ViewportSession
 
 SHARE = {"read": (0.0, 0.05), "pose": (0.05, 0.05), "grow": (0.05, 0.15), "bounds": (0.05, 0.15),
          "reflection cache": (0.15, 0.2), "render": (0.2, 0.98), "write": (0.98, 1.0)}
 """Where stages of a render begin and end on the progress bar."""
-
-Region = tuple[int, int, int, int]
-
-
-def picture_size(scene: bpy.types.Scene) -> tuple[int, int]:
-    """Width and height in pixels, rounded as Blender does."""
-    render = scene.render
-    return (max(1, render.resolution_x * render.resolution_percentage // 100),
-            max(1, render.resolution_y * render.resolution_percentage // 100))
-
-
-def border(scene: bpy.types.Scene, size: tuple[int, int]) -> Region | None:
-    """The render region in pixels from the upper left corner: x0, y0, x1, y1; None: the whole picture."""
-    render = scene.render
-    if not render.use_border:
-        return None
-    # Blender multiplies single floats.
-    x0, x1 = (int(np.float32(side) * np.float32(size[0])) for side in (render.border_min_x, render.border_max_x))
-    y0, y1 = (int(np.float32(side) * np.float32(size[1])) for side in (render.border_min_y, render.border_max_y))
-    return x0, size[1] - y1, x1, size[1] - y0
 
 
 class PelageEngine(bpy.types.RenderEngine):
@@ -49,17 +30,17 @@ class PelageEngine(bpy.types.RenderEngine):
     bl_use_postprocess = True
     bl_use_eevee_viewport = True
     stage = ""
-    session: viewport.ViewportSession | None = None
+    session: ViewportSession | None = None
 
     def __del__(self) -> None:
         if self.session is not None:
-            viewport.release(self.session)
+            viewport_sessions.release(self.session)
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         try:
             if self.session is None:
-                self.session = viewport.acquire()
-                viewport.follow(self)
+                self.session = viewport_sessions.acquire()
+                viewport_sessions.follow(self)
             self.session.write(context, depsgraph)
         except (process.PelageFailed, OSError) as error:
             self.update_stats("Pelage", str(error))
@@ -153,32 +134,3 @@ class PelageEngine(bpy.types.RenderEngine):
 
 
 CLASSES = (PelageEngine,)
-
-
-def compatible_panels() -> list[Any]:
-    """Panels of Blender that make sense with this engine."""
-    unwanted = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_eevee_sampling", "DATA_PT_light",
-                "RENDER_PT_freestyle"}
-    return [panel for panel in bpy.types.Panel.__subclasses__()
-            if "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in unwanted]
-
-
-def register() -> None:
-    for panel in compatible_panels():
-        panel.COMPAT_ENGINES.add(ENGINE)
-    _cycles_panels(True)
-
-
-def unregister() -> None:
-    for panel in compatible_panels():
-        panel.COMPAT_ENGINES.discard(ENGINE)
-    _cycles_panels(False)
-
-
-def _cycles_panels(add: bool) -> None:
-    """Panels of Eevee for materials, lights and the world, which edit the nodes that Pelage reads."""
-    for name in ("EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface",
-                 "DATA_PT_EEVEE_light", "NODE_DATA_PT_EEVEE_light", "DATA_PT_spot"):
-        panel = getattr(bpy.types, name, None)
-        if panel is not None and hasattr(panel, "COMPAT_ENGINES"):
-            (panel.COMPAT_ENGINES.add if add else panel.COMPAT_ENGINES.discard)(ENGINE)

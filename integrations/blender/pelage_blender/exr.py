@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""OpenEXR files with numpy alone, because a Blender need not have a library for them in Python.
+"""OpenEXR files with numpy alone, because Blender's Python need not have a library for them (docs/OWN_CODE.md).
 
 Reads what Pelage writes: scan lines, without compression or with ZIP. Encodes floats without compression.
 """
@@ -18,7 +18,7 @@ import numpy as np
 MAGIC = 20000630
 TYPES: dict[int, np.dtype] = {0: np.dtype("<u4"), 1: np.dtype("<f2"), 2: np.dtype("<f4")}
 ROWS = {0: 1, 2: 1, 3: 16}  # number of rows that are compressed together, by compression
-MAX_RATIO = 1100  # ZIP makes data smaller by a factor of 1032 at most
+MAX_RATIO = 1100  # pixels may be larger than the file by this factor; the limit of ZIP is 1032
 Box = tuple[int, int, int, int]
 
 
@@ -89,8 +89,11 @@ def read_header(data: bytes) -> Header:
 
 
 def _halves(data: bytes, size: int) -> np.ndarray:
-    """Undoes ZIP but for the last step: inflates and adds up differences. All even bytes come first, then all odd ones."""
-    if len(data) >= size:  # a block that did not become smaller is stored as it is
+    """Inflates a ZIP block of `size` bytes and undoes its differences.
+
+    ZIP stores the bytes at even places before those at odd places, and so does the result: the caller interleaves them.
+    """
+    if len(data) >= size:  # OpenEXR stores a block as it is if ZIP would not make it smaller
         plain = np.frombuffer(data, np.uint8)[:size]
         return np.concatenate([plain[0::2], plain[1::2]])
     coded = np.frombuffer(bytearray(zlib.decompress(data)), np.uint8)

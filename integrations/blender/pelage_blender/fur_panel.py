@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from . import fur_operators, preferences, process, schema
+from . import coat_steps, fur_operators, preferences, process, schema
 
 
 class PELAGE_UL_coats(bpy.types.UIList):
@@ -63,13 +63,17 @@ class PELAGE_PT_fur(_FurPanel, bpy.types.Panel):
         layout.operator("scene.pelage_write_yaml", icon="FILE_TEXT")
 
 
-class PELAGE_PT_fur_look(_FurPanel, bpy.types.Panel):
-    bl_label = "Look"
+class _CoatPanel(_FurPanel):
+    """A part of the panel that is there while a coat is chosen."""
     bl_parent_id = "PELAGE_PT_fur"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return fur_operators.active_coat(context) is not None
+
+
+class PELAGE_PT_fur_look(_CoatPanel, bpy.types.Panel):
+    bl_label = "Look"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, coat = self.layout, fur_operators.active_coat(context)
@@ -80,13 +84,8 @@ class PELAGE_PT_fur_look(_FurPanel, bpy.types.Panel):
                 layout.prop(coat, name)
 
 
-class PELAGE_PT_fur_operators(_FurPanel, bpy.types.Panel):
+class PELAGE_PT_fur_operators(_CoatPanel, bpy.types.Panel):
     bl_label = "Operators"
-    bl_parent_id = "PELAGE_PT_fur"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return fur_operators.active_coat(context) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -103,7 +102,7 @@ def draw_operator(box: Any, ob: bpy.types.Object, operator: Any, index: int) -> 
     for action, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN"), ("REMOVE", "X")):
         button = row.operator("object.pelage_operator_edit", text="", icon=icon, emboss=False)
         button.index, button.action = index, action
-    block = fur_operators.operator_schema(operator.kind)
+    block = coat_steps.step_schema(operator.kind)
     if not operator.expanded or block is None:
         return
     for key in block.keys:

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from . import exr
-from .files import SceneFolder
+from .scene_folder import SceneFolder
 
 LINEAR = {"Linear", "Non-Color", "Raw", "Linear Rec.709", "Linear ACES", "scene_linear"}
 

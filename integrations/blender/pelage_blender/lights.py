@@ -10,9 +10,9 @@ import mathutils
 import numpy as np
 
 from .axes import environment_rotation, numbers, place, spot_softness
-from .files import SceneFolder
 from .images import image_file
 from .nodes import constant, linked_node, surface_node
+from .scene_folder import SceneFolder
 
 Notes = set[str]
 SMALLEST_RADIUS = 1e-3

@@ -9,9 +9,9 @@ import bpy
 
 from . import hair_color
 from .axes import index_of_refraction, numbers
-from .files import SceneFolder
 from .images import image_file
 from .nodes import constant, linked_node, surface_node
+from .scene_folder import SceneFolder
 
 Notes = set[str]
 Block = dict[str, Any]
@@ -19,7 +19,7 @@ DEFAULT_COLOR = [0.8, 0.8, 0.8]
 
 
 class MaterialConverter:
-    """Converts the materials of a scene; `notes` collects what has no counterpart."""
+    """Converts materials of Blender, and adds a note for each property that Pelage cannot render."""
 
     def __init__(self, folder: SceneFolder, notes: Notes, frame: int) -> None:
         self.folder, self.notes, self.frame = folder, notes, frame

@@ -2,12 +2,12 @@
 """Meshes of a depsgraph as arrays: cages where Pelage's limit surface is Blender's, and evaluated polygons elsewhere."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
 import numpy as np
 
+from .cage import Cage, Creases
 from .limit_cage import LimitMap
 
 DEFORMING = {"ARMATURE", "CAST", "CLOTH", "COLLISION", "CORRECTIVE_SMOOTH", "CURVE", "DATA_TRANSFER", "DISPLACE", "HOOK",
@@ -16,23 +16,6 @@ DEFORMING = {"ARMATURE", "CAST", "CLOTH", "COLLISION", "CORRECTIVE_SMOOTH", "CUR
              "UV_PROJECT", "UV_WARP", "VERTEX_WEIGHT_EDIT", "VERTEX_WEIGHT_MIX", "VERTEX_WEIGHT_PROXIMITY", "WARP", "WAVE",
              "WEIGHTED_NORMAL"}
 """Kinds of modifiers that keep vertices and faces."""
-
-
-@dataclass
-class Cage:
-    """A mesh in the space of its object and with the axes of Blender."""
-    points: np.ndarray                   # (n, 3)
-    sizes: np.ndarray                    # (f,) number of corners of each face
-    corners: np.ndarray                  # (c,) their vertices
-    uvs: np.ndarray | None               # (c, 2)
-    slots: np.ndarray                    # (f,) index of the material slot
-    scheme: str = "none"
-    boundary: str = "edge-and-corner"
-    rest: np.ndarray | None = None       # (n, 3) before modifiers; None: the same as points
-    vertices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))  # (n,) vertex of Blender's mesh
-    colors: np.ndarray | None = None     # (n, 3) vertex groups
-    limit: LimitMap | None = None        # of a cage that modifiers deform: finds it from the limit surface
-    topology: tuple[int, int] = (0, 0)   # numbers of vertices and corners of the evaluated mesh that the poses are read from
 
 
 def _array(collection: Any, name: str, kind: Any, width: int = 1) -> np.ndarray:
@@ -55,7 +38,7 @@ def _texture_coordinates(mesh: bpy.types.Mesh) -> np.ndarray | None:
 
 
 def _split_at_sharp_edges(mesh: bpy.types.Mesh, corners: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices that share a normal: their vertices in `mesh`, and the new vertex of each corner.
+    """Gives each vertex a copy for each of its normals: the vertex of `mesh` of each copy, and the copy of each corner.
 
     Pelage interpolates normals between the vertices of a mesh, so a sharp edge needs vertices of its own.
     """
@@ -95,16 +78,33 @@ def geometry_modifiers(ob: bpy.types.Object, render: bool) -> list[bpy.types.Mod
 
 
 def subdivision(ob: bpy.types.Object, render: bool) -> bpy.types.Modifier | None:
-    """The Catmull-Clark modifier of an object, if it is the last, only deforming ones precede it, and Pelage can do it."""
+    """The last modifier, if it is Catmull-Clark as Pelage knows it, and the others only deform the mesh."""
     found = geometry_modifiers(ob, render)
     if ob.type != "MESH" or not found or found[-1].type != "SUBSURF" or any(m.type not in DEFORMING for m in found[:-1]):
         return None
     modifier, mesh = found[-1], ob.original.data
     levels = modifier.render_levels if render else modifier.levels
-    edges = mesh.has_crease_edge and bool(np.any(_array(mesh.edges, "crease", np.float32) > 0))
-    creased = modifier.use_creases and (edges or mesh.has_crease_vertex)
-    exact = modifier.subdivision_type == "CATMULL_CLARK" and levels > 0 and modifier.use_limit_surface and not creased
+    exact = modifier.subdivision_type == "CATMULL_CLARK" and levels > 0 and modifier.use_limit_surface
     return modifier if exact and len(mesh.polygons) else None
+
+
+def _sharpness(crease: np.ndarray) -> np.ndarray:
+    """Blender's creases go from 0 to 1; it gives OpenSubdiv the sharpness 10 crease^2."""
+    return 10 * np.square(crease)
+
+
+def read_creases(mesh: bpy.types.Mesh) -> Creases | None:
+    """The creases of a mesh; None if it has none."""
+    ends, vertices = np.zeros((0, 2), np.int64), np.zeros(0, np.int64)
+    of_edges, of_vertices = np.zeros(0, np.float32), np.zeros(0, np.float32)
+    if mesh.has_crease_edge:
+        crease = _array(mesh.edges, "crease", np.float32)
+        sharp = (crease > 0) & ~_array(mesh.edges, "is_loose", bool)  # Pelage has edges of faces only
+        ends, of_edges = _array(mesh.edges, "vertices", np.int32, 2)[sharp].astype(np.int64), _sharpness(crease[sharp])
+    if mesh.has_crease_vertex:
+        crease = _array(mesh.vertex_creases[0].data, "value", np.float32)
+        vertices, of_vertices = np.flatnonzero(crease > 0), _sharpness(crease[crease > 0])
+    return Creases(ends, of_edges, vertices, of_vertices) if len(ends) + len(vertices) else None
 
 
 def deforms(ob: bpy.types.Object, render: bool) -> bool:
@@ -119,10 +119,12 @@ def cage_of(ob: bpy.types.Object, mesh: bpy.types.Mesh, render: bool, rest: bool
     meshes are not split at sharp edges.
     """
     modifier = subdivision(ob, render)
-    if modifier is not None and (rest or not deforms(ob, render)):
+    creases = read_creases(ob.original.data) if modifier is not None and modifier.use_creases else None
+    # LimitMap knows no creases.
+    if modifier is not None and (not deforms(ob, render) or (rest and creases is None)):
         cage = read_mesh(ob.original.data, sharp=False)
         assert cage is not None
-        cage.scheme = "catmull-clark"
+        cage.scheme, cage.creases = "catmull-clark", creases
         cage.boundary = "edge-only" if modifier.boundary_smooth == "ALL" else "edge-and-corner"
         cage.colors, cage.topology = _group_colors(ob, ob.original.data, groups), topology_of(mesh)
         if deforms(ob, render):
@@ -171,23 +173,3 @@ def _group_colors(ob: bpy.types.Object, mesh: bpy.types.Mesh, groups: list[str])
         if name in ob.vertex_groups:
             colors[:, channel] = vertex_weights(mesh, ob.vertex_groups[name].index)
     return colors
-
-
-def turned_over(cage: Cage) -> None:
-    """Reverses the corners of each face: the object is mirrored, and its outer side stays outside."""
-    starts = np.concatenate([[0], np.cumsum(cage.sizes)]).astype(np.int64)
-    place = np.arange(len(cage.corners))
-    face = np.repeat(np.arange(len(cage.sizes)), cage.sizes)
-    order = starts[face] + starts[face + 1] - 1 - place
-    cage.corners = cage.corners[order]
-    if cage.uvs is not None:
-        cage.uvs = cage.uvs[order]
-
-
-def faces_of_slot(cage: Cage, slot: int) -> Cage:
-    """The faces with one material, with the vertices that they need."""
-    chosen = cage.slots == slot
-    of_corner = np.repeat(chosen, cage.sizes)
-    used, corners = np.unique(cage.corners[of_corner], return_inverse=True)
-    return Cage(cage.points[used], cage.sizes[chosen], corners.ravel(), None if cage.uvs is None else cage.uvs[of_corner],
-                cage.slots[chosen], cage.scheme, cage.boundary, vertices=used)

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import exr
 from .axes import FLOATS
-from .files import light_name
+from .names import light_name
 
 LOBES = ("diffuse", "primary", "secondary")
 DATA = {"id": ("X", "VALUE", ("id.X",)), "root": ("UV", "VECTOR", ("root.u", "root.v")),

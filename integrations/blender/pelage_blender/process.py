@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from .files import path_of_line
+from .scene_json import path_of_line
 
 
 class PelageFailed(RuntimeError):

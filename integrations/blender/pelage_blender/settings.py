@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Settings of a scene for the engine, and their panel."""
+"""Settings of a scene for the engine, and what a scene file gets of them."""
 from __future__ import annotations
 
 from typing import Any
@@ -8,18 +8,6 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 ENGINE = "PELAGE"
-WITHOUT_COUNTERPART = (
-    "volumes, emitting surfaces, transparency of surfaces",
-    "metal, transmission, subsurface scattering, clear coat, sheen",
-    "coat and random variation of the Principled Hair BSDF",
-    "normal, bump and displacement maps",
-    "shader nodes other than colours, numbers and image textures",
-    "panoramic cameras, pixels that are not square, clipping",
-    "spread of area lights, ray visibility, light linking, holdouts",
-    "rolling shutter and shutter curves; motion of strands other than that of their emitter",
-    "Freestyle, denoising, Cryptomatte",
-)
-"""What Blender has and Pelage has not; shown in the panel."""
 
 
 class PelageSettings(bpy.types.PropertyGroup):
@@ -52,90 +40,6 @@ class PelageSettings(bpy.types.PropertyGroup):
                               description="Passes of ids, texture coordinates of roots, tangents and motion")
 
 
-class _Panel:
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "render"
-    COMPAT_ENGINES = {ENGINE}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.engine == ENGINE)
-
-
-def _columns(panel: Any, owner: Any, *names: str) -> None:
-    layout = panel.layout
-    layout.use_property_split, layout.use_property_decorate = True, False
-    for name in names:
-        layout.prop(owner, name)
-
-
-class PELAGE_PT_sampling(_Panel, bpy.types.Panel):
-    bl_label = "Sampling"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.pelage
-        _columns(self, settings, "integrator", "samples", "viewport_samples", "bounces", "adaptive")
-        if settings.adaptive:
-            self.layout.prop(settings, "noise")
-        _columns(self, settings, "time_limit", "clamp", "seed")
-
-
-class PELAGE_PT_strands(_Panel, bpy.types.Panel):
-    bl_label = "Strands"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        _columns(self, context.scene.pelage, "curves", "lod")
-
-
-class PELAGE_PT_motion(_Panel, bpy.types.Panel):
-    bl_label = "Motion Blur"
-
-    def draw_header(self, context: bpy.types.Context) -> None:
-        self.layout.prop(context.scene.render, "use_motion_blur", text="")
-
-    def draw(self, context: bpy.types.Context) -> None:
-        _columns(self, context.scene.render, "motion_blur_shutter")
-        _columns(self, context.scene.pelage, "motion_keys")
-
-
-class PELAGE_PT_performance(_Panel, bpy.types.Panel):
-    bl_label = "Performance"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        _columns(self, context.scene.render, "threads_mode", "threads")
-        _columns(self, context.scene.pelage, "memory")
-
-
-class PELAGE_PT_counterparts(_Panel, bpy.types.Panel):
-    bl_label = "Without Counterpart in Pelage"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        for line in WITHOUT_COUNTERPART:
-            self.layout.label(text=line, icon="DOT")
-
-
-class PELAGE_PT_passes(_Panel, bpy.types.Panel):
-    bl_label = "Passes"
-    bl_context = "view_layer"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        _columns(self, context.view_layer, "use_pass_z", "use_pass_normal")
-        _columns(self, context.scene.pelage, "light_layers", "data_layers")
-
-
-CLASSES = (PelageSettings, PELAGE_PT_sampling, PELAGE_PT_strands, PELAGE_PT_motion, PELAGE_PT_performance,
-           PELAGE_PT_counterparts, PELAGE_PT_passes)
-
-
-def register() -> None:
-    bpy.types.Scene.pelage = PointerProperty(type=PelageSettings)
-
-
-def unregister() -> None:
-    del bpy.types.Scene.pelage
-
-
 def render_block(settings: PelageSettings, viewport: bool) -> dict[str, Any]:
     """The block `render` of a scene file."""
     block: dict[str, Any] = {
@@ -149,3 +53,14 @@ def render_block(settings: PelageSettings, viewport: bool) -> dict[str, Any]:
     if settings.time_limit > 0 and not viewport:
         block["time_limit"] = settings.time_limit
     return block
+
+
+CLASSES = (PelageSettings,)
+
+
+def register() -> None:
+    bpy.types.Scene.pelage = PointerProperty(type=PelageSettings)
+
+
+def unregister() -> None:
+    del bpy.types.Scene.pelage

@@ -2,12 +2,10 @@
 """Progressive pictures in the viewport: `pelage view` renders a folder that follows the edits in Blender."""
 from __future__ import annotations
 
-import atexit
 import pathlib
 import shutil
 import time
 import traceback
-import weakref
 from typing import Any
 
 import bpy
@@ -17,16 +15,14 @@ from gpu_extras.presets import draw_texture_2d
 
 from . import preferences, process
 from .camera import optics, placement, projected
-from .files import SceneFolder, document_text, new_folder, remove_stale_folders
+from .scene_folder import SceneFolder
+from .scene_json import document_text
 from .scene_writer import SceneWriter
+from .temporary_folders import new_folder
 from .view_client import ViewClient, ViewPicture
 
 FAR = 1000.0
 """How far behind its view an orthographic viewport has its camera, in units: Blender shows what is behind it, too."""
-KEPT_S = 2.0
-"""Blender frees a viewport's engine at each undo and makes another: its session is kept this long for the next one."""
-_sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
-_spare: list[tuple[float, ViewportSession]] = []
 
 
 def view_camera(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, notes: set[str]) -> dict[str, Any]:
@@ -55,10 +51,9 @@ class ViewportSession:
         self.shown = -1
         self.announced, self.announced_s = (-1, ""), 0.0
         self.problem = ""
-        _sessions.add(self)
 
     def write(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
-        """Writes what has changed in the scene."""
+        """Rewrites the files whose content an edit has changed, and starts the program unless it runs."""
         try:
             size = max(context.region.width, 1), max(context.region.height, 1)
             self.document = self.writer.write(depsgraph, size, camera=view_camera(context, depsgraph, self.writer.notes))
@@ -73,6 +68,7 @@ class ViewportSession:
         if self.client is not None and self.client.ended:
             self.client.close()
             self.client, self.shown = None, -1
+            self.announced = -1, ""  # the new program counts its pictures from the start
         if self.client is None:
             scene = depsgraph.scene
             threads = scene.render.threads if scene.render.threads_mode == "FIXED" else 0
@@ -126,37 +122,10 @@ class ViewportSession:
         return False
 
     def close(self) -> None:
-        _sessions.discard(self)
         if self.client is not None:
             self.client.close()
             self.client = None
         shutil.rmtree(self.folder, ignore_errors=True)
-
-
-def acquire() -> ViewportSession:
-    """A session for a new engine: one that has just been released, or a new one. Raises PelageFailed."""
-    while _spare:
-        _, session = _spare.pop()
-        if session.program == preferences.program() and (session.client is None or not session.client.ended):
-            return session
-        session.close()
-    return ViewportSession()
-
-
-def release(session: ViewportSession) -> None:
-    """Ends a session soon, unless another engine acquires it."""
-    if KEPT_S == 0:
-        session.close()
-        return
-    _spare.append((time.monotonic(), session))
-
-    def tick() -> float | None:
-        for entry in [entry for entry in _spare if time.monotonic() - entry[0] >= KEPT_S]:
-            _spare.remove(entry)
-            entry[1].close()
-        return 0.5 if _spare else None
-
-    bpy.app.timers.register(tick, first_interval=KEPT_S, persistent=True)
 
 
 def _texture(picture: ViewPicture, transparent: bool) -> gpu.types.GPUTexture:
@@ -166,50 +135,3 @@ def _texture(picture: ViewPicture, transparent: bool) -> gpu.types.GPUTexture:
         rgba[..., 3] = 1  # Pelage's alpha is 0 where only the world is seen
     pixels = gpu.types.Buffer("FLOAT", rgba.size, rgba.ravel())
     return gpu.types.GPUTexture((columns, rows), format="RGBA16F", data=pixels)
-
-
-def follow(engine: Any) -> None:
-    """Redraws the viewport of an engine whenever there is something new, as long as the engine lives."""
-    reference = weakref.ref(engine)
-
-    def tick() -> float | None:
-        alive = reference()
-        try:
-            session = alive.session if alive is not None else None
-            if session is None:
-                return None
-            if session.changed():
-                alive.tag_redraw()  # type: ignore[union-attr]
-        except ReferenceError:  # Blender has freed the engine
-            return None
-        except Exception:  # the next picture may be better; without the timer, there would be none
-            traceback.print_exc()
-            return 1.0
-        return 0.05
-
-    bpy.app.timers.register(tick, first_interval=0.05)
-
-
-def close_all() -> None:
-    for session in [*(session for _, session in _spare), *_sessions]:
-        session.close()
-    _spare.clear()
-
-
-def _at_exit() -> None:
-    global KEPT_S
-    KEPT_S = 0.0  # nobody will acquire what Blender frees from now on
-    close_all()
-
-
-def register() -> None:
-    remove_stale_folders()
-    atexit.register(_at_exit)
-
-
-def unregister() -> None:
-    close_all()
-    atexit.unregister(_at_exit)
-
-
-CLASSES = ()

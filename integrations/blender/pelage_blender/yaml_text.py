@@ -2,10 +2,7 @@
 """Scenes as YAML for people: blocks down to those that fit on a line. Knows nothing of Blender."""
 from __future__ import annotations
 
-import hashlib
-import itertools
 import json
-import pathlib
 import re
 from typing import Any
 
@@ -56,20 +53,3 @@ def block(value: Any, depth: int = 0) -> str:
 def scene_text(document: dict[str, Any]) -> str:
     """A whole scene file."""
     return "".join(block({key: value}) for key, value in document.items())
-
-
-def signed(text: str) -> str:
-    """The text with a last line that tells whether someone has edited it."""
-    return f"{text}# Written by Blender, {hashlib.blake2b(text.encode(), digest_size=8).hexdigest()}\n"
-
-
-def unchanged_name(folder: pathlib.Path) -> str:
-    """scene.yaml, or scene 2.yaml and so on: the first that is not there, or is as signed() returned it."""
-    for number in itertools.count(1):
-        path = folder / ("scene.yaml" if number == 1 else f"scene {number}.yaml")
-        if not path.exists():
-            break
-        text = path.read_text(encoding="utf-8", errors="replace")
-        if text == signed(text[:text.rstrip("\n").rfind("\n") + 1]):
-            break
-    return path.name
