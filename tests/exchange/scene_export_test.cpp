@@ -69,7 +69,7 @@ TEST_F(SceneExport, UsdRoundTripKeepsTheStrands) {
 
 TEST_F(SceneExport, UsdStageIsValidAndOpensWithoutStrands) {
   const std::filesystem::path folder = write(ExportFormat::kUsd);
-  const UsdFindings findings = validate_usd(folder / "fur.usda");
+  const ValidationReport findings = validate_usd(folder / "fur.usda");
   EXPECT_EQ(findings.problems, std::vector<std::string>());
   EXPECT_EQ(findings.strands, 930u);
   EXPECT_EQ(findings.meshes, 2u);
@@ -108,7 +108,7 @@ TEST_F(SceneExport, UsdMeshIsTheCage) {
 /// A light of the stage has the place, direction, size and radiance of the scene.
 TEST_F(SceneExport, UsdLightsAndCamera) {
   const std::filesystem::path folder = write(ExportFormat::kUsd, {kStill});
-  UsdWarnings warnings;
+  ReadWarnings warnings;
   UsdStage stage(folder / "fur.usda", warnings);
   int seen = 0;
   stage.visit([&](const UsdPrim& prim) {
