@@ -231,7 +231,7 @@ void add_rib(CLI::App& app, Options& options, Texts& texts) {
 
 void add_export(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* command =
-      app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4 or Mitsuba 3");
+      app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4, Mitsuba 3 or Alembic");
   add_scene_flags(*command, options, texts);
   add_rib_use_flags(*command, options.rib_in);
   add_script_flag(*command, options);
