@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
-#include "geom/alembic/alembic_strands.h"
+#include "geom/io/alembic_strands.h"
 #include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
 
@@ -16,7 +16,8 @@ int run_convert(const Options& options) {
   }
   if (options.host != AlembicHost::kAny && !is_alembic_file(options.output))
     throw Error(ErrorKind::kArguments, "--for needs an .abc file to write");
-  const StrandFile file = read_strands(options.input, {options.basis, options.default_width, true});
+  const StrandFile file =
+      read_strands(options.input, {options.basis, options.default_width, true, options.memory});
   ProgressDisplay display(options.progress, [] { return false; });
   for (const std::string& warning : file.warnings) display.warn(warning);
   // Widths that neither the file nor the user states stay unstated.

@@ -15,7 +15,9 @@ namespace pelage {
 
 void add_export_flags(CLI::App& command, std::string& folder, std::string& format) {
   command.add_option("-o,--output", folder, "Folder to write; it may exist")->required()->type_name("DIR");
-  command.add_option("--format", format, "Format: usd, pbrt (version 4) or mitsuba (version 3)")
+  command
+      .add_option("--format", format,
+                  "Format: usd, pbrt (version 4), mitsuba (version 3) or alembic (strands only)")
       ->required()
       ->type_name("FORMAT");
 }

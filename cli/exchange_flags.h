@@ -4,7 +4,7 @@
 #include <string>
 
 #include "exchange/scene_export.h"
-#include "geom/alembic/alembic_host.h"
+#include "geom/alembic/alembic_curves_writer.h"
 
 namespace CLI {
 class App;

@@ -14,6 +14,7 @@
 #include "cli/output_files.h"
 #include "cli/read_scene.h"
 #include "cli/run.h"
+#include "cli/unworn_grooms.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
 #include "groom/cache/cache_report.h"
@@ -181,6 +182,10 @@ std::map<std::string, std::string> coats_without(const std::vector<Strands>& gro
 /// `coats`: the coat of each batch.
 void write_grown(const std::string& path, const std::vector<Strands>& grown,
                  const std::vector<std::string>& coats, Progress& progress) {
+  if (std::all_of(grown.begin(), grown.end(), [](const Strands& s) { return s.strand_count() == 0; })) {
+    throw Error(ErrorKind::kInput,
+                path + ": there are no strands to write: the scene grows no groom at this frame");
+  }
   // A strand file has a single basis.
   for (const Strands& strands : grown) {
     if (strands.basis() != grown.front().basis()) {
@@ -263,6 +268,7 @@ int run_grow(const Options& options) {
   if (!options.output.empty() && !is_strand_file(options.output)) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as " + kStrandEndings);
   }
+  if (!options.output.empty()) wear_unworn_grooms(scene, options.groom);
   // A file name with a place for the frame number asks for every frame.
   std::vector<int> frames = scene.frames.frames;
   if (!has_frame_pattern(options.output)) frames.resize(1);

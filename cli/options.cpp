@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include <CLI/App.hpp>
@@ -35,6 +36,11 @@ struct Texts : RunTexts {
   std::string export_format;
   std::string host;
 };
+
+void add_file_memory_flag(CLI::App& command, Texts& texts) {
+  command.add_option("--memory", texts.memory, "Memory limit for the contents of the file (default: 4G)")
+      ->type_name("BYTES");
+}
 
 void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
   command
@@ -163,6 +169,7 @@ void add_info(CLI::App& app, Options& options, Texts& texts) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_strand_flags(*info, options, texts);
+  add_file_memory_flag(*info, texts);
 }
 
 void add_convert(CLI::App& app, Options& options, Texts& texts) {
@@ -172,6 +179,7 @@ void add_convert(CLI::App& app, Options& options, Texts& texts) {
   convert->add_option("OUT", options.output, "Strand file to write")->required();
   add_host_flag(*convert, texts.host);
   add_strand_flags(*convert, options, texts);
+  add_file_memory_flag(*convert, texts);
 }
 
 void add_validate(CLI::App& app, Options& options, Texts& texts) {
@@ -223,7 +231,7 @@ void add_rib(CLI::App& app, Options& options, Texts& texts) {
 
 void add_export(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* command =
-      app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4 or Mitsuba 3");
+      app.add_subcommand("export", "Write a scene for other programs: USD, pbrt-v4, Mitsuba 3 or Alembic");
   add_scene_flags(*command, options, texts);
   add_rib_use_flags(*command, options.rib_in);
   add_script_flag(*command, options);
@@ -329,6 +337,8 @@ void interpret(const Texts& texts, Options& options) {
     const auto bytes =
         static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
     options.motion_blur.file.memory = options.stereo.file.memory = bytes;
+    // No limit, like `render.memory: 0`.
+    options.memory = bytes > 0 ? bytes : std::numeric_limits<int64_t>::max();
   }
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);

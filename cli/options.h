@@ -13,7 +13,7 @@
 #include "cli/rib_flags.h"
 #include "cli/run_options.h"
 #include "exchange/scene_export.h"
-#include "geom/alembic/alembic_host.h"
+#include "geom/alembic/alembic_curves_writer.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
 #include "post/merge_pieces.h"
@@ -81,6 +81,8 @@ struct Options : RunOptions {
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown
+
+  int64_t memory = int64_t{4} << 30;  ///< convert, info: max memory for the contents of a file, in bytes
 
   AlembicHost host = AlembicHost::kAny;  ///< convert: the program that an .abc file is made for
 

@@ -20,9 +20,9 @@ void print_lines(const char* kind, const std::vector<std::string>& lines) {
 }
 
 /// .hair and .tfx files have no times, extents or ids, so a reader finds everything.
-UsdFindings validate_strands(const Options& options) {
+ValidationReport validate_strands(const Options& options) {
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width});
-  UsdFindings findings;
+  ValidationReport findings;
   findings.curves = 1;
   findings.strands = file.strands.strand_count() + static_cast<size_t>(file.repairs.dropped);
   findings.points = file.strands.point_count();
@@ -45,9 +45,9 @@ int run_validate(const Options& options) {
   if (!is_strand_file(options.input))
     throw Error(ErrorKind::kInput, {options.input, 0, 0},
                 std::string("expected a file ending in ") + kStrandEndings);
-  const UsdFindings findings = is_usd_file(options.input)       ? validate_usd(options.input)
-                               : is_alembic_file(options.input) ? validate_alembic(options.input)
-                                                                : validate_strands(options);
+  const ValidationReport findings = is_usd_file(options.input)       ? validate_usd(options.input)
+                                    : is_alembic_file(options.input) ? validate_alembic(options.input)
+                                                                     : validate_strands(options);
   std::cout << fmt::format("{}: {} strands of {} points, {} meshes\n", options.input, findings.strands,
                            findings.points, findings.meshes);
   print_lines("problem: ", findings.problems);

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
+#include "exchange/still_geometry.h"
 #include "geom/io/host_geometry.h"
 #include "geom/io/mesh_file.h"
-#include "geom/polygon_cut.h"
 #include "render/light/aim.h"
 #include "render/light/environment_light.h"
 
@@ -15,20 +15,13 @@ namespace {
 using Kind = ExportedLight::Kind;
 
 double area_of(const ControlMesh& mesh) {
+  const std::vector<uint32_t> triangles = cage_triangles(mesh);
   double area = 0;
-  std::vector<V3f> corners;
-  std::vector<uint32_t> cut;
-  const uint32_t* vertex = mesh.face_vertices.data();
-  for (const uint32_t size : mesh.face_sizes) {
-    corners.clear();
-    cut.clear();
-    for (uint32_t i = 0; i < size; ++i) corners.push_back(mesh.positions[vertex[i]]);
-    cut_polygon({vertex, size}, corners, cut);
-    for (size_t i = 0; i + 2 < cut.size(); i += 3) {
-      const V3f& a = mesh.positions[cut[i]];
-      area += 0.5 * double{(mesh.positions[cut[i + 1]] - a).cross(mesh.positions[cut[i + 2]] - a).length()};
-    }
-    vertex += size;
+  for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const V3f& a = mesh.positions[triangles[i]];
+    area +=
+        0.5 *
+        double{(mesh.positions[triangles[i + 1]] - a).cross(mesh.positions[triangles[i + 2]] - a).length()};
   }
   return area;
 }

@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/version.h"
+#include "exchange/alembic/alembic_coats.h"
 #include "exchange/export_folder.h"
 #include "exchange/export_notes.h"
 #include "exchange/mitsuba/mitsuba_scene.h"
@@ -43,7 +44,9 @@ std::string readme_text(const ExportSource& source, ExportFormat format,
 std::vector<std::string> main_files(ExportFormat format, const ExportSource& source) {
   const std::string stem = source.path.stem().string();
   if (format == ExportFormat::kUsd) return {stem + ".usda"};
-  const char* ending = format == ExportFormat::kPbrt ? ".pbrt" : ".xml";
+  const char* ending = format == ExportFormat::kPbrt      ? ".pbrt"
+                       : format == ExportFormat::kAlembic ? ".abc"
+                                                          : ".xml";
   const std::vector<int>& frames = source.scene.frames.frames;
   if (frames.size() == 1) return {stem + ending};
   std::vector<std::string> names;
@@ -69,6 +72,9 @@ std::vector<std::filesystem::path> export_scene(const std::filesystem::path& fol
       break;
     case ExportFormat::kMitsuba:
       files = write_mitsuba_scene(out.working(), source, notes, job);
+      break;
+    case ExportFormat::kAlembic:
+      files = write_alembic_coats(out.working(), source, notes, job);
       break;
   }
   write_file(out.working() / "README.md", readme_text(source, format, files, notes), Links::kReplace);

@@ -12,10 +12,10 @@
 
 namespace pelage {
 
-enum class ExportFormat { kUsd, kPbrt, kMitsuba };
+enum class ExportFormat { kUsd, kPbrt, kMitsuba, kAlembic };
 template <>
 struct EnumNames<ExportFormat> {
-  static constexpr const char* names[] = {"usd", "pbrt", "mitsuba"};
+  static constexpr const char* names[] = {"usd", "pbrt", "mitsuba", "alembic"};
 };
 
 /// A scene to be exported, as load_scene() and load_assets() make it. Level of detail is not applied: all

@@ -104,7 +104,7 @@ size_t write_ply(const std::filesystem::path& path, const FrameSkin& skin, const
   return triangles;
 }
 
-void write_ply(const std::filesystem::path& path, const ControlMesh& mesh) {
+std::vector<uint32_t> cage_triangles(const ControlMesh& mesh) {
   std::vector<uint32_t> triangles, cut;
   std::vector<V3f> corners;
   const uint32_t* vertex = mesh.face_vertices.data();
@@ -116,6 +116,11 @@ void write_ply(const std::filesystem::path& path, const ControlMesh& mesh) {
     triangles.insert(triangles.end(), cut.begin(), cut.end());
     vertex += size;
   }
+  return triangles;
+}
+
+void write_ply(const std::filesystem::path& path, const ControlMesh& mesh) {
+  const std::vector<uint32_t> triangles = cage_triangles(mesh);
   ExportedText ply(path);
   write_ply_header(ply, mesh.positions.size(), triangles.size() / 3, false);
   for (const V3f& p : mesh.positions) ply.add("{} {} {}\n", p.x, p.y, p.z);

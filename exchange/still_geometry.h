@@ -49,7 +49,9 @@ std::vector<float> bspline_points(const Strands& strands, size_t strand);
 /// Returns the number of triangles of a skin as `view` needs them, and writes them as a PLY file in text, in
 /// the pose at the middle of the shutter. Writes no file if there are none.
 size_t write_ply(const std::filesystem::path& path, const FrameSkin& skin, const View& view, const Job& job);
-/// Writes the faces of a mesh as triangles.
+/// Cuts the faces of a cage into triangles. Returns the vertices of their corners.
+std::vector<uint32_t> cage_triangles(const ControlMesh& mesh);
+/// Writes the faces of a cage as triangles.
 void write_ply(const std::filesystem::path& path, const ControlMesh& mesh);
 
 }  // namespace pelage

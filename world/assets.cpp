@@ -111,8 +111,8 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
                        const Job& job) {
   const bool from_file = !params.mesh.empty() && !params.mesh.data;
   if (from_file) require_file(params.mesh.path, params.mesh.position);
-  // The size of a USD file says nothing about the meshes it names, and an Alembic file may hold much more than
-  // this mesh. So the readers of these formats charge the memory of what they read.
+  // Only the memory of an OBJ follows from the size of its file: a USD file may refer to other files, and an
+  // Alembic file may contain more than meshes. The readers of these formats charge their memory themselves.
   const bool known_size = from_file && !is_usd_file(params.mesh.path) && !is_alembic_file(params.mesh.path);
   MemoryCharge reading = known_size ? reserve_reading(name, params, job) : MemoryCharge();
   ControlMesh cage = from_file          ? read_mesh_file(params.mesh.path, job)

@@ -21,8 +21,8 @@ constexpr uint64_t kMaxHeaderPasses = 16;
 /// Reads headers from a block of data.
 class AlembicHeaderReader {
  public:
-  AlembicHeaderReader(const OgawaFile& file, std::span<const std::byte> bytes, std::string_view what)
-      : file_(file), bytes_(bytes), what_(what) {}
+  AlembicHeaderReader(const OgawaFile& file, const OgawaBlock& block, std::string_view what)
+      : file_(file), block_(block), bytes_(file.keep(block)), what_(what) {}
 
   bool at_end() const { return next_ == bytes_.size(); }
   /// A number of 1, 2 or 4 bytes.
@@ -45,7 +45,7 @@ class AlembicHeaderReader {
     return taken;
   }
   [[noreturn]] void fail(const std::string& why) const {
-    file_.fail(fmt::format("{}: {}", what_, why), bytes_);
+    file_.fail(fmt::format("{}: {}", what_, why), block_);
   }
 
  private:
@@ -56,6 +56,7 @@ class AlembicHeaderReader {
   }
 
   const OgawaFile& file_;
+  const OgawaBlock block_;
   const std::span<const std::byte> bytes_;
   const std::string_view what_;
   size_t next_ = 0;
@@ -109,25 +110,25 @@ std::string_view alembic_metadata(std::string_view metadata, std::string_view ke
 
 AlembicArchive::AlembicArchive(const std::filesystem::path& path) : file_(path) {
   const OgawaGroup root = file_.root();
-  const std::span<const std::byte> layout = file_.data(root, kLayoutChild);
+  const OgawaBlock layout = file_.block(root, kLayoutChild);
   int32_t version = -1;
-  if (layout.size() == sizeof version) std::memcpy(&version, layout.data(), sizeof version);
+  if (layout.size == sizeof version) file_.read(layout, std::as_writable_bytes(std::span(&version, 1)));
   if (version != 0) file_.fail("is of an unknown version of Alembic", root.position);
-  const std::span<const std::byte> metadata = file_.data(root, kMetadataChild);
+  const std::span<const std::byte> metadata = file_.keep(file_.block(root, kMetadataChild));
   top_.metadata = {reinterpret_cast<const char*>(metadata.data()), metadata.size()};
   top_.group = file_.group(root, kTopChild);
-  read_indexed_metadata(file_.data(root, kIndexedChild));
+  read_indexed_metadata(file_.block(root, kIndexedChild));
 }
 
-void AlembicArchive::read_indexed_metadata(std::span<const std::byte> bytes) {
+void AlembicArchive::read_indexed_metadata(const OgawaBlock& block) {
   metadata_.emplace_back();  // index 0: none
-  AlembicHeaderReader in(file_, bytes, "shared metadata");
+  AlembicHeaderReader in(file_, block, "shared metadata");
   while (!in.at_end() && metadata_.size() < kInlineMetadata) metadata_.push_back(in.text(in.number(1)));
 }
 
-void AlembicArchive::count_headers(std::span<const std::byte> headers) const {
-  const uint64_t before = header_bytes_.fetch_add(headers.size(), std::memory_order_relaxed);
-  if (before + headers.size() > kMaxHeaderPasses * file_.size())
+void AlembicArchive::count_headers(const OgawaBlock& headers) const {
+  header_bytes_ += headers.size;
+  if (header_bytes_ > kMaxHeaderPasses * file_.size())
     file_.fail("objects or properties share their headers", headers);
 }
 
@@ -135,10 +136,10 @@ std::vector<AlembicObject> AlembicArchive::children(const AlembicObject& object)
   std::vector<AlembicObject> children;
   const uint64_t last = object.group.count - 1;
   if (object.group.count == 0 || file_.is_group(object.group, last)) return children;
-  const std::span<const std::byte> bytes = file_.data(object.group, last);
-  if (bytes.size() <= kHeaderHashes) return children;
-  count_headers(bytes);
-  AlembicHeaderReader in(file_, bytes.first(bytes.size() - kHeaderHashes), "headers of objects");
+  const OgawaBlock block = file_.block(object.group, last);
+  if (block.size <= kHeaderHashes) return children;
+  count_headers(block);
+  AlembicHeaderReader in(file_, block.first(block.size - kHeaderHashes), "headers of objects");
   while (!in.at_end()) {
     AlembicObject child;
     child.name = in.name(in.number(4));
@@ -168,9 +169,9 @@ AlembicCompound AlembicArchive::compound(const AlembicProperty& property) const 
 AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
   AlembicCompound compound;
   if (group.count == 0 || file_.is_group(group, group.count - 1)) return compound;
-  const std::span<const std::byte> bytes_of_headers = file_.data(group, group.count - 1);
-  count_headers(bytes_of_headers);
-  AlembicHeaderReader in(file_, bytes_of_headers, "headers of properties");
+  const OgawaBlock block = file_.block(group, group.count - 1);
+  count_headers(block);
+  AlembicHeaderReader in(file_, block, "headers of properties");
   while (!in.at_end()) {
     AlembicProperty property;
     const PropertyBits info{in.number(4)};
@@ -199,13 +200,13 @@ AlembicCompound AlembicArchive::compound_of(const OgawaGroup& group) const {
   return compound;
 }
 
-std::span<const std::byte> AlembicArchive::sample(const AlembicProperty& property, uint32_t index) const {
+OgawaBlock AlembicArchive::sample(const AlembicProperty& property, uint32_t index) const {
   if (index >= property.stored || property.kind == AlembicProperty::Kind::kCompound) return {};
   const bool array = property.kind == AlembicProperty::Kind::kArray;  // which have sizes after each sample
-  const std::span<const std::byte> bytes = file_.data(property.group, array ? 2 * uint64_t{index} : index);
-  if (bytes.empty()) return bytes;
-  if (bytes.size() < kSampleKey) file_.fail("a sample is shorter than its key", bytes);
-  return bytes.subspan(kSampleKey);
+  const OgawaBlock block = file_.block(property.group, array ? 2 * uint64_t{index} : index);
+  if (block.size == 0) return {};
+  if (block.size < kSampleKey) file_.fail("a sample is shorter than its key", block);
+  return block.from(kSampleKey);
 }
 
 }  // namespace pelage

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -31,7 +30,7 @@ enum class AlembicPod : uint8_t {
 /// Bytes of a number; 0 for texts.
 size_t alembic_pod_bytes(AlembicPod pod);
 
-/// Views into the file, valid as long as the archive.
+/// The texts are valid as long as the archive.
 struct AlembicProperty {
   enum class Kind { kCompound, kScalar, kArray };
   std::string_view name, metadata;
@@ -59,10 +58,9 @@ class AlembicCompound {
 std::string_view alembic_metadata(std::string_view metadata, std::string_view key);
 
 /// The objects and properties of an Alembic file. Members throw Error (kInput) with the position in bytes
-/// where the file is malformed, or has names of more than 64 KiB or with control characters; also when they
-/// have read 16 times as many bytes of headers as the file has, since only objects and properties that share
-/// their headers need so many, which no library writes. Thread safety: const members may be called from any
-/// thread.
+/// where the file is malformed, or has names of more than 64 KiB or with control characters. They also throw
+/// after they have parsed 16 times as many bytes of headers as the file has: only objects and properties that
+/// share their headers need so many, and no library writes such files. For use by one thread.
 class AlembicArchive {
  public:
   explicit AlembicArchive(const std::filesystem::path& path);
@@ -73,17 +71,18 @@ class AlembicArchive {
   AlembicCompound properties(const AlembicObject& object) const;
   AlembicCompound compound(const AlembicProperty& property) const;
   /// Returns the bytes of a stored sample, without the key before them; empty if there is no such sample.
-  std::span<const std::byte> sample(const AlembicProperty& property, uint32_t index = 0) const;
+  /// Does not read them.
+  OgawaBlock sample(const AlembicProperty& property, uint32_t index = 0) const;
 
  private:
   AlembicCompound compound_of(const OgawaGroup& group) const;
-  void count_headers(std::span<const std::byte> headers) const;
-  void read_indexed_metadata(std::span<const std::byte> bytes);
+  void count_headers(const OgawaBlock& headers) const;
+  void read_indexed_metadata(const OgawaBlock& block);
 
   OgawaFile file_;
   AlembicObject top_;
   std::vector<std::string_view> metadata_;  // which headers name by index
-  mutable std::atomic<uint64_t> header_bytes_ = 0;
+  mutable uint64_t header_bytes_ = 0;
 };
 
 }  // namespace pelage

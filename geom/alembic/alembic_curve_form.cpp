@@ -12,8 +12,8 @@
 namespace pelage {
 namespace {
 
-using Basis = UsdCurveForm::Basis;
-using Wrap = UsdCurveForm::Wrap;
+using Basis = CurveForm::Basis;
+using Wrap = CurveForm::Wrap;
 
 bool has_phantom_ends(const AlembicNode& node) {
   const AlembicProperty* user = node.geometry.find(".userProperties");
@@ -23,7 +23,7 @@ bool has_phantom_ends(const AlembicNode& node) {
   return phantoms && alembic_first_integer(node.archive, *phantoms) == 1;
 }
 
-/// What knots make of a cubic B-spline.
+/// Kinds of knot vectors of a cubic B-spline.
 enum class KnotKind { kUniform, kBezier, kClamped, kOther };
 
 /// `t`: the knots without the first and the last one, on which no point of the curve depends.
@@ -41,8 +41,9 @@ KnotKind knot_kind(std::span<const float> t) {
   return t[0] == t[2] || t[n - 3] == t[n - 1] ? KnotKind::kClamped : KnotKind::kOther;
 }
 
-/// Makes the form that of the knots, as far as one form holds for all curves.
-void apply_knots(const AlembicNode& node, UsdCurveForm& form, UsdWarnings& warnings) {
+/// Sets the basis and wrap that the knots of the curves imply. If curves differ, or their knots are not
+/// uniform, chooses the nearest form and adds a warning.
+void apply_knots(const AlembicNode& node, CurveForm& form, ReadWarnings& warnings) {
   const AlembicProperty *knots = node.geometry.find(".knots"), *counts = node.geometry.find("nVertices"),
                         *points = node.geometry.find("P");
   const size_t stated = knots ? alembic_count(node.archive, *knots) : 0;
@@ -87,12 +88,12 @@ int64_t common_order(const AlembicNode& node) {
 }  // namespace
 
 uint32_t AlembicCurveForm::varying(uint32_t n) const {
-  UsdCurveForm in_file = form;
+  CurveForm in_file = form;
   if (phantom_ends) in_file.wrap = Wrap::kNonperiodic;
   return in_file.varying(n);
 }
 
-std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdWarnings& warnings) {
+std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, ReadWarnings& warnings) {
   const AlembicProperty* stated = node.geometry.find("curveBasisAndType");
   std::vector<int64_t> bytes;
   if (stated && alembic_is_integer(*stated) && alembic_count(node.archive, *stated) <= 4)
@@ -103,7 +104,7 @@ std::optional<AlembicCurveForm> alembic_curve_form(const AlembicNode& node, UsdW
   }
   const SourcePosition place{node.archive.file().path().string(), 0, 0};
   AlembicCurveForm result;
-  UsdCurveForm& form = result.form;
+  CurveForm& form = result.form;
   form.cubic = bytes[0] != static_cast<int64_t>(AlembicCurveType::kLinear);
   form.wrap = bytes[1] == 1 ? Wrap::kPeriodic : Wrap::kNonperiodic;
   auto basis = static_cast<AlembicBasis>(bytes[2]);

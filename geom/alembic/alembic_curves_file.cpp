@@ -5,12 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "base/memory_budget.h"
 #include "geom/alembic/alembic_curve_form.h"
 #include "geom/alembic/alembic_param.h"
 #include "geom/alembic/alembic_values.h"
-#include "geom/io/file_transform.h"
-#include "geom/usd/usd_curve_batch.h"
+#include "geom/interchange/curve_batch.h"
 
 namespace pelage {
 namespace {
@@ -36,14 +34,14 @@ void drop_ends(const std::vector<uint32_t>& counts, size_t components, std::vect
 
 class AlembicCurvesReader {
  public:
-  AlembicCurvesReader(const UsdCurvesOptions& options, const std::filesystem::path& path,
-                      UsdWarnings& warnings)
-      : options_(options), place_{path.string(), 0, 0}, warnings_(warnings) {}
+  AlembicCurvesReader(const CurvesReadOptions& options, const std::filesystem::path& path,
+                      ReadWarnings& warnings)
+      : place_{path.string(), 0, 0}, budget_(options.max_bytes), warnings_(warnings) {}
 
   void add(const AlembicNode& node) {
     node.note_unreadable(warnings_);
     if (!node.is_curves()) return;
-    UsdCurveBatch batch;
+    CurveBatch batch;
     const AlembicProperty *knots = node.geometry.find(".knots"), *counts = node.geometry.find("nVertices");
     if (knots && counts) {
       charge(static_cast<int64_t>(alembic_count(node.archive, *knots) * sizeof(float) +
@@ -60,33 +58,18 @@ class AlembicCurvesReader {
     (guide ? guides_ : batches_).push_back(std::move(batch));
   }
 
-  UsdCurvesFile finish(const AlembicScene& scene) {
+  CurvesFile finish(const AlembicScene& scene) {
     if (batches_.empty()) batches_.swap(guides_);
     if (!guides_.empty()) warnings_.add("guides (groom_guide) are skipped", place_);
     guides_.clear();
     if (batches_.empty()) fail_without(scene, "has no curves", warnings_);
-    UsdCurvesFile file;
-    const auto widthed = std::count_if(batches_.begin(), batches_.end(),
-                                       [](const UsdCurveBatch& b) { return !b.widths.values.empty(); });
-    if (widthed > 0 && widthed < static_cast<ptrdiff_t>(batches_.size()))
-      warnings_.add("some curves have no widths; they get the default", place_);
-    file.has_widths = widthed > 0;
-    file.strands = join_usd_curves(std::move(batches_), [&](int64_t bytes) { charge(bytes); });
-    file.warnings = warnings_.lines();
-    return file;
+    return join_curves(std::move(batches_), place_, budget_, warnings_);
   }
 
  private:
-  /// Fails before memory is taken that does not fit.
-  void charge(int64_t bytes) {
-    bytes_ += bytes;
-    if (bytes_ <= options_.max_bytes) return;
-    throw Error(ErrorKind::kMemory, place_,
-                fmt::format("reading the strands needs more than the free memory, {}",
-                            memory_text(options_.max_bytes)));
-  }
+  void charge(int64_t bytes) { budget_.charge(bytes, place_); }
 
-  bool add_vertices(const AlembicNode& node, const AlembicCurveForm& form, UsdCurveBatch& batch) {
+  bool add_vertices(const AlembicNode& node, const AlembicCurveForm& form, CurveBatch& batch) {
     const AlembicProperty *counts = node.geometry.find("nVertices"), *points = node.geometry.find("P");
     if (!counts || !points || counts->stored == 0 || points->stored == 0) {
       warnings_.add("curves without points are skipped", place_);
@@ -114,33 +97,32 @@ class AlembicCurvesReader {
     if (sum != vertices)
       node.fail(fmt::format("nVertices add up to {}, but there are {} points", sum, vertices));
     batch.points = alembic_floats(node.archive, *points);
-    sizes_ = UsdPrimvarCounts{batch.counts.size(), 0, vertices, 0};
+    if (batch.points.size() != 3 * vertices) node.fail("the file changed while it was read");
+    sizes_ = PrimvarCounts{batch.counts.size(), 0, vertices, 0};
     for (const uint32_t n : batch.counts) sizes_.varying += form.varying(n);
     sizes_.face_varying = sizes_.varying;  // the same for curves
     return !batch.counts.empty();
   }
 
-  std::optional<UsdPrimvar> param(const AlembicNode& node, const AlembicProperty* property,
-                                  bool needed = false) {
+  std::optional<Primvar> param(const AlembicNode& node, const AlembicProperty* property,
+                               bool needed = false) {
     if (!property) return {};
     charge(static_cast<int64_t>(alembic_param_bytes(node.archive, *property)));
     return alembic_param(node, *property, sizes_, warnings_, needed);
   }
 
-  void add_widths(const AlembicNode& node, UsdCurveBatch& batch) {
+  void add_widths(const AlembicNode& node, CurveBatch& batch) {
     set_widths(param(node, node.geometry.find("width"), true), batch);
-    if (std::optional<UsdPrimvar> uv = param(node, node.geometry.find("uv"), true); uv && uv->components == 2)
+    if (std::optional<Primvar> uv = param(node, node.geometry.find("uv"), true); uv && uv->components == 2)
       batch.root_uv = std::move(*uv);
   }
-  static void set_widths(std::optional<UsdPrimvar> widths, UsdCurveBatch& batch) {
+  static void set_widths(std::optional<Primvar> widths, CurveBatch& batch) {
     if (!widths || widths->components != 1 || widths->values.empty() || !batch.widths.values.empty()) return;
-    const float factor = 0.5f * length_factor(batch.to_world);
-    for (float& width : widths->values) width *= factor;
-    batch.widths = std::move(*widths);
+    batch.set_widths(std::move(*widths));
   }
 
   /// Returns whether the curves are guides.
-  bool add_params(const AlembicNode& node, UsdCurveBatch& batch) {
+  bool add_params(const AlembicNode& node, CurveBatch& batch) {
     const AlembicProperty* arbitrary = node.geometry.find(".arbGeomParams");
     if (!arbitrary) return false;
     const AlembicCompound params = node.archive.compound(*arbitrary);
@@ -157,13 +139,13 @@ class AlembicCurvesReader {
     return guide;
   }
 
-  void add_param(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
+  void add_param(const AlembicNode& node, const AlembicProperty& property, CurveBatch& batch) {
     if (batch.attributes.size() == kMaxCurveParams) {
       warnings_.add("parameters beyond the first 32 are skipped", place_);
       return;
     }
     const bool needed = property.name == "groom_width" || property.name == "groom_root_uv";
-    std::optional<UsdPrimvar> values = param(node, &property, needed);
+    std::optional<Primvar> values = param(node, &property, needed);
     if (!values) return;
     if (property.name == "groom_width") return set_widths(std::move(values), batch);
     if (property.name == "groom_root_uv" && values->components == 2) {
@@ -176,8 +158,8 @@ class AlembicCurvesReader {
 
   /// Curves are guides if all of them are: those of a constant, and of equal values. If some are, all are
   /// strands with an attribute.
-  bool is_guide(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
-    std::optional<UsdPrimvar> guides = param(node, &property);
+  bool is_guide(const AlembicNode& node, const AlembicProperty& property, CurveBatch& batch) {
+    std::optional<Primvar> guides = param(node, &property);
     if (!guides) return false;
     const auto marked =
         std::count_if(guides->values.begin(), guides->values.end(), [](float value) { return value != 0; });
@@ -193,7 +175,7 @@ class AlembicCurvesReader {
            ((property.name == "ids" || property.name == "id") && alembic_is_integer(property));
   }
 
-  void add_ids(const AlembicNode& node, const AlembicProperty& property, UsdCurveBatch& batch) {
+  void add_ids(const AlembicNode& node, const AlembicProperty& property, CurveBatch& batch) {
     if (!batch.ids.empty() || !alembic_is_integer(property)) return;
     const size_t count = alembic_count(node.archive, property);
     if (count != batch.counts.size()) {
@@ -202,11 +184,12 @@ class AlembicCurvesReader {
     }
     charge(static_cast<int64_t>(count) * kBytesPerId);
     const std::vector<int64_t> ids = alembic_integers(node.archive, property);
+    if (ids.size() != count) node.fail("the file changed while it was read");
     batch.ids.assign(ids.begin(), ids.end());
   }
 
-  static void drop_phantoms(UsdCurveBatch& batch) {
-    const auto drop = [&](UsdPrimvar& values) {
+  static void drop_phantoms(CurveBatch& batch) {
+    const auto drop = [&](Primvar& values) {
       if (values.interpolation == "vertex") drop_ends(batch.counts, values.components, values.values);
     };
     drop_ends(batch.counts, 3, batch.points);
@@ -216,18 +199,17 @@ class AlembicCurvesReader {
     for (uint32_t& count : batch.counts) count = count > 2 ? count - 2 : 0;
   }
 
-  const UsdCurvesOptions options_;
   const SourcePosition place_;
-  UsdWarnings& warnings_;
-  UsdPrimvarCounts sizes_;
-  std::vector<UsdCurveBatch> batches_, guides_;
-  int64_t bytes_ = 0;
+  ReadBudget budget_;
+  ReadWarnings& warnings_;
+  PrimvarCounts sizes_;
+  std::vector<CurveBatch> batches_, guides_;
 };
 
 }  // namespace
 
-UsdCurvesFile read_alembic_curves(const std::filesystem::path& path, const UsdCurvesOptions& options) {
-  UsdWarnings warnings;
+CurvesFile read_alembic_curves(const std::filesystem::path& path, const CurvesReadOptions& options) {
+  ReadWarnings warnings;
   AlembicScene scene(path, warnings);
   AlembicCurvesReader reader(options, path, warnings);
   scene.visit([&](const AlembicNode& node) { reader.add(node); });

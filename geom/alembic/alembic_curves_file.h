@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "geom/usd/usd_curves_file.h"
+#include "geom/interchange/geometry_file.h"
 
 namespace pelage {
 
@@ -17,7 +17,7 @@ namespace pelage {
 ///
 /// Throws Error: kInput with the object or the position in bytes for malformed files and counts that do not
 /// fit, kMemory when the strands need more than `max_bytes`.
-UsdCurvesFile read_alembic_curves(const std::filesystem::path& path, const UsdCurvesOptions& options = {});
+CurvesFile read_alembic_curves(const std::filesystem::path& path, const CurvesReadOptions& options = {});
 
 /// Scalar in .userProperties of curves that Pelage writes: 1 if the first and last vertex of each curve are
 /// the phantom vertices of a curve that begins at its second vertex.

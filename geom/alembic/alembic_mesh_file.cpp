@@ -8,7 +8,7 @@
 
 #include "geom/alembic/alembic_param.h"
 #include "geom/alembic/alembic_values.h"
-#include "geom/io/mesh_joiner.h"
+#include "geom/interchange/mesh_joiner.h"
 
 namespace pelage {
 namespace {
@@ -37,7 +37,7 @@ constexpr MeshNumbers kMeshNumbers[] = {
 
 class AlembicMeshReader {
  public:
-  AlembicMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
+  AlembicMeshReader(ControlMesh& mesh, const std::filesystem::path& path, ReadWarnings& warnings)
       : mesh_(mesh), joiner_(mesh, path), place_{path.string(), 0, 0}, warnings_(warnings) {}
 
   /// The memory that the cage and a mesh need until the mesh is in the cage.
@@ -188,15 +188,15 @@ class AlembicMeshReader {
   ControlMesh& mesh_;
   MeshJoiner joiner_;
   const SourcePosition place_;
-  UsdWarnings& warnings_;
+  ReadWarnings& warnings_;
 };
 
 }  // namespace
 
-UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshReserve& reserve) {
-  UsdWarnings warnings;
+MeshFile read_alembic_mesh(const std::filesystem::path& path, const MeshReserve& reserve) {
+  ReadWarnings warnings;
   AlembicScene scene(path, warnings);
-  UsdMeshFile file;
+  MeshFile file;
   AlembicMeshReader reader(file.mesh, path, warnings);
   scene.visit([&](const AlembicNode& node) {
     if (reserve && node.is_mesh()) reserve(static_cast<int64_t>(reader.bytes(node)));

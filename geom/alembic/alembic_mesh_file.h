@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "geom/usd/usd_mesh_file.h"
+#include "geom/interchange/geometry_file.h"
 
 namespace pelage {
 
@@ -15,6 +15,6 @@ namespace pelage {
 ///
 /// Throws Error (kInput) with the object or the position in bytes for malformed files, for indices out of
 /// range, for numbers that are not finite, and for files without a mesh.
-UsdMeshFile read_alembic_mesh(const std::filesystem::path& path, const UsdMeshReserve& reserve = {});
+MeshFile read_alembic_mesh(const std::filesystem::path& path, const MeshReserve& reserve = {});
 
 }  // namespace pelage

@@ -12,8 +12,6 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMaxParamComponents = 16;
-
 /// The values of a parameter, and the indices of an indexed one.
 struct ParamParts {
   AlembicProperty values;
@@ -47,42 +45,30 @@ std::string interpolation_of_scope(std::string_view scope) {
   return "constant";
 }
 
-size_t param_count(const std::string& interpolation, const UsdPrimvarCounts& counts) {
-  if (interpolation == "uniform") return counts.uniform;
-  if (interpolation == "varying") return counts.varying;
-  if (interpolation == "vertex") return counts.vertex;
-  if (interpolation == "faceVarying") return counts.face_varying;
-  return 1;
-}
-
-void expand(const AlembicNode& node, const ParamParts& parts, UsdPrimvar& param) {
-  std::vector<float> expanded;
+void expand(const AlembicNode& node, const ParamParts& parts, Primvar& param) {
   const std::vector<int64_t> indices = alembic_integers(node.archive, *parts.indices);
-  expanded.reserve(indices.size() * param.components);
-  for (const int64_t index : indices) {
-    if (index < 0 || static_cast<size_t>(index) >= param.count())
-      node.fail(fmt::format("the index {} is not one of {} elements", index, param.count()));
-    const auto first = param.values.begin() + index * static_cast<ptrdiff_t>(param.components);
-    expanded.insert(expanded.end(), first, first + static_cast<ptrdiff_t>(param.components));
-  }
-  param.values = std::move(expanded);
+  param.select(indices.size(), [&](size_t i) {
+    if (indices[i] < 0 || static_cast<size_t>(indices[i]) >= param.count())
+      node.fail(fmt::format("the index {} is not one of {} elements", indices[i], param.count()));
+    return static_cast<size_t>(indices[i]);
+  });
 }
 
 }  // namespace
 
-std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicProperty& property,
-                                        const UsdPrimvarCounts& counts, UsdWarnings& warnings, bool needed) {
+std::optional<Primvar> alembic_param(const AlembicNode& node, const AlembicProperty& property,
+                                     const PrimvarCounts& counts, ReadWarnings& warnings, bool needed) {
   const std::optional<ParamParts> parts = param_parts(node.archive, property);
   if (!parts) return {};
   const SourcePosition place{node.archive.file().path().string(), 0, 0};
-  if (parts->components > kMaxParamComponents) {
+  if (parts->components > kMaxPrimvarComponents) {
     warnings.add("parameters with more than 16 numbers per element are skipped", place);
     return {};
   }
-  UsdPrimvar param;
+  Primvar param;
   param.components = parts->components;
   param.values = alembic_floats(node.archive, parts->values);
-  const auto skip = [&](const std::string& why) -> std::optional<UsdPrimvar> {
+  const auto skip = [&](const std::string& why) -> std::optional<Primvar> {
     if (needed) node.fail(why);
     warnings.add(visible(why) + "; it is skipped", place);
     return {};
@@ -94,18 +80,17 @@ std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicPr
   if (count == 0) return {};
   const std::string_view scope = alembic_metadata(property.metadata, "geoScope");
   param.interpolation = interpolation_of_scope(scope);
-  if (param_count(param.interpolation, counts) == count) return param;
+  if (counts.of(param.interpolation) == count) return param;
   // AbcGeom counts the values of these scopes per vertex, also those of cubic curves that are not periodic.
   const bool per_vertex = count == counts.vertex && counts.varying == counts.face_varying &&
                           (param.interpolation == "varying" || param.interpolation == "faceVarying");
-  for (const char* other : {"vertex", "varying", "uniform", "constant", "faceVarying"}) {
-    if (param_count(other, counts) != count) continue;
+  if (const char* fitting = counts.interpolation_of(count)) {
     if (!scope.empty() && !per_vertex) {
       warnings.add(fmt::format("'{}' has a size that does not fit its scope, {}", visible(property.name),
                                param.interpolation),
                    place);
     }
-    param.interpolation = other;
+    param.interpolation = fitting;
     return param;
   }
   return skip(fmt::format("'{}' has {} values; {} vertices, {} curves or faces need others", property.name,
@@ -114,7 +99,7 @@ std::optional<UsdPrimvar> alembic_param(const AlembicNode& node, const AlembicPr
 
 size_t alembic_param_bytes(const AlembicArchive& archive, const AlembicProperty& property) {
   const std::optional<ParamParts> parts = param_parts(archive, property);
-  if (!parts || parts->components > kMaxParamComponents) return 0;
+  if (!parts || parts->components > kMaxPrimvarComponents) return 0;
   const size_t values = alembic_count(archive, parts->values) * sizeof(float);
   if (!parts->indices) return values;
   return values +

@@ -55,7 +55,8 @@ M44f to_float(const Imath::M44d& m) {
   return result;
 }
 
-/// Whether an object states that it is hidden (0), shown (1), or as its parent (-1, or nothing).
+/// Returns whether an object is hidden. Its property `visible` is 0 if it is hidden, 1 if it is shown, and -1
+/// or missing if it inherits the state of its parent.
 bool is_hidden(const AlembicArchive& archive, const AlembicCompound& properties, bool parent_hidden) {
   const AlembicProperty* visible = properties.find("visible");
   const int64_t stated = visible ? alembic_first_integer(archive, *visible).value_or(-1) : -1;
@@ -64,7 +65,7 @@ bool is_hidden(const AlembicArchive& archive, const AlembicCompound& properties,
 
 }  // namespace
 
-void AlembicNode::note_unreadable(UsdWarnings& warnings) const {
+void AlembicNode::note_unreadable(ReadWarnings& warnings) const {
   if (schema.starts_with("AbcGeom_NuPatch") || schema.starts_with("AbcGeom_Points"))
     warnings.add("surfaces of NURBS and points are skipped", {archive.file().path().string(), 0, 0});
 }
@@ -74,7 +75,7 @@ void AlembicNode::fail(const std::string& message) const {
               visible(fmt::format("<{}>: {}", path, message)));
 }
 
-void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings) {
+void fail_without(const AlembicScene& scene, std::string lacking, const ReadWarnings& warnings) {
   const std::string file = scene.archive().file().path().string(), prefix = visible(file + ": ");
   for (const std::string& line : warnings.lines())
     lacking += "; " + (line.starts_with(prefix) ? line.substr(prefix.size()) : line);
@@ -106,7 +107,7 @@ Imath::M44d alembic_transform(const AlembicArchive& archive, const AlembicCompou
   return matrix;
 }
 
-/// What an object passes on to those within it.
+/// What the children of an object inherit.
 struct AlembicScene::Parent {
   Imath::M44d to_world;
   bool hidden = false;

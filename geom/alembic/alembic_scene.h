@@ -10,7 +10,7 @@
 
 #include "base/vector.h"
 #include "geom/alembic/alembic_archive.h"
-#include "geom/usd/usd_warnings.h"
+#include "geom/interchange/read_warnings.h"
 
 namespace pelage {
 
@@ -28,7 +28,7 @@ struct AlembicNode {
     return schema.starts_with("AbcGeom_PolyMesh_") || schema.starts_with("AbcGeom_SubD_");
   }
   /// Adds a warning if objects of this kind are never read: surfaces of NURBS, and points.
-  void note_unreadable(UsdWarnings& warnings) const;
+  void note_unreadable(ReadWarnings& warnings) const;
   /// Throws Error (kInput) with the file and the path of the object.
   [[noreturn]] void fail(const std::string& message) const;
 };
@@ -36,8 +36,9 @@ struct AlembicNode {
 /// The objects of an Alembic file with their transforms, at the earliest sample. For use by one thread.
 class AlembicScene {
  public:
-  /// `warnings`: receives what is skipped. Throws Error (kInput) as AlembicArchive does.
-  AlembicScene(const std::filesystem::path& path, UsdWarnings& warnings)
+  /// Adds a warning to `warnings` for everything that is skipped. Throws Error (kInput) as AlembicArchive
+  /// does.
+  AlembicScene(const std::filesystem::path& path, ReadWarnings& warnings)
       : archive_(path), warnings_(warnings) {}
 
   const AlembicArchive& archive() const { return archive_; }
@@ -52,14 +53,14 @@ class AlembicScene {
                       const std::function<void(const AlembicNode&)>& use);
 
   const AlembicArchive archive_;
-  UsdWarnings& warnings_;
+  ReadWarnings& warnings_;
   std::set<uint64_t> visited_;  // positions of the groups of objects
   std::string path_;            // of the object that is visited
 };
 
-/// Throws Error (kInput): the file, what it lacks ("has no curves") and the warnings, which may be the
-/// reason.
-[[noreturn]] void fail_without(const AlembicScene& scene, std::string lacking, const UsdWarnings& warnings);
+/// Throws Error (kInput) with the file, with what the file lacks ("has no curves"), and with all warnings,
+/// which may give the reason.
+[[noreturn]] void fail_without(const AlembicScene& scene, std::string lacking, const ReadWarnings& warnings);
 
 /// Returns the matrix of a transform (a compound property .xform), for row vectors. `inherits`: whether the
 /// transform of the parent applies, too. Throws Error (kInput) for malformed values.

@@ -26,7 +26,7 @@ constexpr size_t kMaxFindings = 1000;
 
 class AlembicCurvesValidator {
  public:
-  AlembicCurvesValidator(const AlembicNode& node, UsdWarnings& warnings, UsdFindings& findings,
+  AlembicCurvesValidator(const AlembicNode& node, ReadWarnings& warnings, ValidationReport& findings,
                          uint64_t& bytes_left)
       : node_(node), warnings_(warnings), findings_(findings), bytes_left_(bytes_left) {}
 
@@ -70,15 +70,16 @@ class AlembicCurvesValidator {
       bytes += alembic_param_bytes(node_.archive, *width);
     return bytes;
   }
-  /// Whether a later sample is to be read: one whose block no earlier sample has.
-  bool is_new(const AlembicProperty& property, uint32_t sample, std::set<const std::byte*>& known) {
-    const std::span<const std::byte> bytes = node_.archive.sample(property, sample);
-    if (!known.insert(bytes.data()).second || sample == 0) return sample == 0;
-    if (bytes.size() > bytes_left_) {
+  /// Whether a sample is to be read: the first one, or one whose block no earlier sample has. `known`: the
+  /// positions of the blocks of earlier samples.
+  bool is_new(const AlembicProperty& property, uint32_t sample, std::set<uint64_t>& known) {
+    const OgawaBlock block = node_.archive.sample(property, sample);
+    if (!known.insert(block.position).second || sample == 0) return sample == 0;
+    if (block.size > bytes_left_) {
       skip_rest();
       return false;
     }
-    bytes_left_ -= bytes.size();
+    bytes_left_ -= block.size;
     return true;
   }
 
@@ -105,7 +106,7 @@ class AlembicCurvesValidator {
     findings_.strands += sizes_.uniform;
     if (one > 0) problem(fmt::format("{} strands have one point", one));
     if (few > one) problem(fmt::format("{} strands have too few points for their basis", few - one));
-    std::set<const std::byte*> known{node_.archive.sample(counts).data()};
+    std::set<uint64_t> known{node_.archive.sample(counts).position};
     for (uint32_t sample = 1; sample < counts.stored; ++sample) {
       if (!is_new(counts, sample, known)) continue;
       if (alembic_integers(node_.archive, counts, sample) == first) continue;
@@ -116,7 +117,7 @@ class AlembicCurvesValidator {
 
   void check_points(const AlembicProperty& points) {
     if (points.extent != 3) return problem(fmt::format("its points have {} coordinates", points.extent));
-    std::set<const std::byte*> known;
+    std::set<uint64_t> known;
     for (uint32_t sample = 0; sample < points.stored; ++sample) {
       if (!is_new(points, sample, known)) continue;
       const std::vector<float> numbers = alembic_floats(node_.archive, points, sample);
@@ -136,7 +137,7 @@ class AlembicCurvesValidator {
   }
 
   void check_widths(const AlembicProperty* property) {
-    std::optional<UsdPrimvar> widths;
+    std::optional<Primvar> widths;
     try {
       if (property) widths = alembic_param(node_, *property, sizes_, warnings_, true);
     } catch (const Error& error) {
@@ -165,19 +166,19 @@ class AlembicCurvesValidator {
   }
 
   const AlembicNode& node_;
-  UsdWarnings& warnings_;
-  UsdFindings& findings_;
+  ReadWarnings& warnings_;
+  ValidationReport& findings_;
   uint64_t& bytes_left_;
-  UsdPrimvarCounts sizes_;
+  PrimvarCounts sizes_;
   Box3f box_;  // of the points at the earliest sample
   bool counts_change_ = false;
 };
 
 }  // namespace
 
-UsdFindings validate_alembic(const std::filesystem::path& path) {
-  UsdFindings findings;
-  UsdWarnings warnings;
+ValidationReport validate_alembic(const std::filesystem::path& path) {
+  ValidationReport findings;
+  ReadWarnings warnings;
   AlembicScene scene(path, warnings);
   uint64_t bytes_left = kMaxCheckedFiles * scene.archive().file().size();
   scene.visit([&](const AlembicNode& node) {

@@ -30,18 +30,21 @@ std::string serialized(const AlembicMetadata& metadata) {
   return text;
 }
 
+void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
 /// Appends a number of 1, 2 or 4 bytes.
 void append_number(std::vector<std::byte>& to, uint32_t value, size_t size) {
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(&value, 1));
-  to.insert(to.end(), bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size));
+  append(to, std::as_bytes(std::span(&value, 1)).first(size));
+}
+void append_double(std::vector<std::byte>& to, double value) {
+  append(to, std::as_bytes(std::span(&value, 1)));
 }
 void append_header_text(std::vector<std::byte>& to, std::string_view text) {
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(text));
-  to.insert(to.end(), bytes.begin(), bytes.end());
+  append(to, std::as_bytes(std::span(text)));
 }
 void append_hash(std::vector<std::byte>& to, const ContentHash& hash) {
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(&hash, 1));
-  to.insert(to.end(), bytes.begin(), bytes.end());
+  append(to, std::as_bytes(std::span(&hash, 1)));
 }
 static_assert(sizeof(ContentHash) == 16, "samples have keys of 16 bytes");
 
@@ -218,11 +221,10 @@ void AlembicWriter::finish(AlembicObjectWriter&& top) {
   root.push_back(ogawa_.data(std::as_bytes(std::span(metadata))));
   // One time sampling: one sample at time 0, then one per second.
   std::vector<std::byte> times;
-  const double per_second = 1, start = 0;
   append_number(times, 1, 4);
-  for (const std::byte byte : std::as_bytes(std::span(&per_second, 1))) times.push_back(byte);
+  append_double(times, 1);  // per second
   append_number(times, 1, 4);
-  for (const std::byte byte : std::as_bytes(std::span(&start, 1))) times.push_back(byte);
+  append_double(times, 0);  // the first
   root.push_back(ogawa_.data(times));
   root.push_back(ogawa_.data(indexed_));
   ogawa_.finish(ogawa_.group(root));

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/alembic/alembic_strands.h"
-
-#include <algorithm>
+#include "geom/io/alembic_strands.h"
 
 #include "geom/alembic/alembic_curves_file.h"
 #include "geom/io/strand_formats.h"
 
 namespace pelage {
-namespace {
-
-class AlembicStrands final : public HeldStrands {
- public:
-  AlembicStrands(const std::filesystem::path& path, UsdCurvesFile read)
-      : HeldStrands(path.string(), "alembic", std::move(read.strands)) {
-    has_widths = read.has_widths;
-    warnings = std::move(read.warnings);
-  }
-};
-
-}  // namespace
 
 std::unique_ptr<RawStrands> open_alembic(const std::filesystem::path& path,
                                          const StrandReadOptions& options) {
-  return std::make_unique<AlembicStrands>(
-      path, read_alembic_curves(path, {std::min(options.max_bytes, UsdCurvesOptions().max_bytes)}));
+  return std::make_unique<HeldStrands>(path, "alembic", read_alembic_curves(path, {options.max_bytes}));
 }
 
 void write_alembic(const std::filesystem::path& path, const Strands& strands, bool widths) {

@@ -21,8 +21,11 @@ HeldStrands::HeldStrands(const std::string& name, const char* format_name, std::
   own_ = std::move(own);
 }
 
-HeldStrands::HeldStrands(const std::string& name, const char* format_name, StrandArrays strands)
-    : HeldStrands(name, format_name, std::make_shared<Strands>(std::move(strands))) {}
+HeldStrands::HeldStrands(const std::filesystem::path& path, const char* format_name, CurvesFile read)
+    : HeldStrands(path.string(), format_name, std::make_shared<Strands>(std::move(read.strands))) {
+  has_widths = read.has_widths;
+  warnings = std::move(read.warnings);
+}
 
 StrandArrays HeldStrands::take_all() { return own_ ? std::move(*own_).release() : RawStrands::take_all(); }
 

@@ -11,11 +11,6 @@
 
 namespace pelage {
 
-bool is_usd_file(const std::filesystem::path& path) {
-  const std::string ending = lower_extension(path);
-  return ending == ".usda" || ending == ".usd" || ending == ".usdc" || ending == ".usdz";
-}
-
 bool is_alembic_file(const std::filesystem::path& path) { return lower_extension(path) == ".abc"; }
 
 ControlMesh read_mesh_file(const std::filesystem::path& path) {
@@ -26,12 +21,12 @@ ControlMesh read_mesh_file(const std::filesystem::path& path) {
 ControlMesh read_mesh_file(const std::filesystem::path& path, const Job& job) {
   if (!is_usd_file(path) && !is_alembic_file(path)) return read_obj(path, job);
   MemoryCharge reading;
-  const UsdMeshReserve charge = [&](int64_t bytes) {
+  const MeshReserve charge = [&](int64_t bytes) {
     job.check_stop();
     reading = {};
     reading = reserve(job.ledger, MemoryTag::kSkins, bytes, "reading " + path.filename().string());
   };
-  UsdMeshFile file = is_alembic_file(path) ? read_alembic_mesh(path, charge) : read_usd_mesh(path, charge);
+  MeshFile file = is_alembic_file(path) ? read_alembic_mesh(path, charge) : read_usd_mesh(path, charge);
   for (const std::string& warning : file.warnings) job.progress.warn(warning);
   job.check_stop();
   return std::move(file.mesh);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "geom/mesh.h"
+#include "geom/usd/usd_files.h"
 
 namespace pelage {
 
@@ -16,8 +17,6 @@ ControlMesh read_mesh_file(const std::filesystem::path& path);
 /// kMemory when a mesh of USD or Alembic does not fit the memory limit, to which reading charges it.
 ControlMesh read_mesh_file(const std::filesystem::path& path, const Job& job);
 
-/// Returns whether the name of a file has an extension of USD.
-bool is_usd_file(const std::filesystem::path& path);
 /// Returns whether the name of a file has the extension of Alembic, .abc.
 bool is_alembic_file(const std::filesystem::path& path);
 

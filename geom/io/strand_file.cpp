@@ -9,7 +9,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "geom/alembic/alembic_strands.h"
+#include "geom/interchange/read_budget.h"
+#include "geom/io/alembic_strands.h"
 #include "geom/io/strand_formats.h"
 #include "geom/io/strand_repair.h"
 
@@ -69,6 +70,21 @@ bool is_usual(const StrandAttribute& movable, const Strands& strands) {
   return true;
 }
 
+/// Max memory that read_strands() uses for strands that stay in their file until then.
+int64_t reading_bytes(const RawStrands& raw) {
+  const size_t points = raw.first_point(raw.strand_count);
+  size_t floats = 4 * points;
+  for (const StrandAttribute& attribute : raw.attributes) {
+    const size_t count = attribute.frequency == AttributeClass::kPerPoint    ? points
+                         : attribute.frequency == AttributeClass::kPerStrand ? raw.strand_count
+                                                                             : 1;
+    floats += count * static_cast<size_t>(attribute.components);
+  }
+  const size_t bytes =
+      floats * sizeof(float) + raw.strand_count * (sizeof(uint32_t) + sizeof(uint64_t) + sizeof(V2f));
+  return static_cast<int64_t>(bytes + bytes / 2);
+}
+
 }  // namespace
 
 bool is_strand_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
@@ -79,6 +95,7 @@ StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptio
 
 StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options) {
   const std::unique_ptr<RawStrands> raw = open_raw_strands(asset, options);
+  ReadBudget(options.max_bytes).charge(reading_bytes(*raw), {raw->file.path().string(), 0, 0});
   StrandArrays arrays = raw->take_all();
   const float stated = stated_width(*raw, options);
   const float width = stated > 0 ? stated : assumed_width(arrays);

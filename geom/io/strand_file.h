@@ -44,7 +44,7 @@ struct StrandReadOptions {
   /// Also read which points of a .tfx file simulations may move, as the attribute "movable": 0 for fixed
   /// points.
   bool movable = false;
-  /// Max memory for the strands of formats that are read as a whole, in bytes.
+  /// Max memory in bytes that read_strands() may use, or that opening a file of USD or Alembic may use.
   int64_t max_bytes = std::numeric_limits<int64_t>::max();
 };
 
@@ -60,8 +60,9 @@ bool is_strand_file(const std::filesystem::path& path);
 /// Repairs or drops degenerate strands, and counts them. Reads "color" and "transparency" of .hair files,
 /// "opacity" and "uv" of .tfx files, and all attributes of numbers of .usda and .abc files.
 ///
-/// Throws Error (kInput) with the reason when the file is damaged, is not of this format, or is shorter than
-/// the sizes in its header require. Uses less memory than 1.5 times the memory of the strands.
+/// Throws Error: kInput with the reason when the file is damaged, is not of this format, or is shorter than
+/// the sizes in its header require; kMemory, before the strands are read, if they need more than `max_bytes`.
+/// Uses less memory than 1.5 times the memory of the strands, except for USD and Alembic.
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
 /// Does the same to strands in the memory of the host, or to a file.
 StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options = {});
@@ -73,7 +74,7 @@ StrandFile read_strands(const AssetPath& asset, const StrandReadOptions& options
 /// file cannot be written, or when the format cannot represent the strands, such as strands with different
 /// numbers of points in .tfx. A .usda file also has basis, ids, roots, motion keys at the times 0, 1 and so
 /// on, and all attributes. A .abc file has ids, texture coordinates of roots and all attributes
-/// (geom/alembic/alembic_strands.h).
+/// (geom/io/alembic_strands.h).
 void write_strands(const std::filesystem::path& path, const Strands& strands, bool widths = true);
 
 /// Lists what a file of the format that the name selects cannot hold of these strands, for messages: "widths

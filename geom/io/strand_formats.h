@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/value_readers.h"
+#include "geom/interchange/geometry_file.h"
 #include "geom/io/binary_file.h"
 #include "geom/io/strand_file.h"
 
@@ -95,8 +96,9 @@ class HeldStrands : public RawStrands {
   /// Ids of the strands must be their indices. `root_uv`: whether texture coordinates of roots are passed on.
   HeldStrands(const std::string& name, const char* format_name, std::shared_ptr<const Strands> strands,
               bool root_uv = false);
-  /// Owns the strands, so that take_all() need not copy them. Passes texture coordinates of roots on.
-  HeldStrands(const std::string& name, const char* format_name, StrandArrays strands);
+  /// Owns the strands of a file, so that take_all() need not copy them. Keeps the texture coordinates of
+  /// roots, the warnings, and whether the file has widths.
+  HeldStrands(const std::filesystem::path& path, const char* format_name, CurvesFile read);
   uint32_t first_point(size_t strand) const override;
   void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const override;
   StrandArrays take_all() override;

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "geom/io/strand_formats.h"
 #include "geom/usd/usd_curves_file.h"
 #include "geom/usd/usd_curves_writer.h"
 
 namespace pelage {
-namespace {
-
-class UsdStrands final : public HeldStrands {
- public:
-  UsdStrands(const std::filesystem::path& path, UsdCurvesFile read)
-      : HeldStrands(path.string(), "usd", std::move(read.strands)) {
-    has_widths = read.has_widths;
-    warnings = std::move(read.warnings);
-  }
-};
-
-}  // namespace
 
 std::unique_ptr<RawStrands> open_usd(const std::filesystem::path& path, const StrandReadOptions& options) {
-  return std::make_unique<UsdStrands>(
-      path, read_usd_curves(path, {std::min(options.max_bytes, UsdCurvesOptions().max_bytes)}));
+  return std::make_unique<HeldStrands>(path, "usd", read_usd_curves(path, {options.max_bytes}));
 }
 
 void write_usd(const std::filesystem::path& path, const Strands& strands, bool widths) {

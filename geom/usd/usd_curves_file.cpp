@@ -5,65 +5,65 @@
 
 #include <fmt/format.h>
 
-#include "base/memory_budget.h"
-#include "geom/io/file_transform.h"
-#include "geom/usd/usd_curve_batch.h"
+#include "geom/interchange/curve_batch.h"
+#include "geom/usd/usd_curve_form.h"
 #include "geom/usd/usd_primvar.h"
 #include "geom/usd/usd_values.h"
 
 namespace pelage {
 namespace {
 
-/// Bytes of memory per byte of text while a prim is read: a number has two characters or more, is in memory
-/// twice for a short time, and resampled curves have six points per vertex.
+/// Max bytes of memory per byte of text while the numbers of a prim are read: a number has two characters or
+/// more, arrays grow by doubling, and integers are in memory twice for a short time.
 constexpr int64_t kMemoryPerText = 16;
-/// Primvars of files are seldom more; every strand may get a value of each.
-constexpr size_t kMaxPrimvars = 32, kMaxPrimvarComponents = 16;
+/// Files seldom have more primvars; every strand may get a value of each.
+constexpr size_t kMaxPrimvars = 32;
 
 class UsdCurvesReader {
  public:
-  UsdCurvesReader(const UsdCurvesOptions& options, UsdWarnings& warnings)
-      : options_(options), warnings_(warnings) {}
+  UsdCurvesReader(const CurvesReadOptions& options, const std::filesystem::path& path)
+      : file_{path.string(), 0, 0}, budget_(options.max_bytes) {}
+
+  CurvesFile read(const UsdSource& source) {
+    UsdStage stage(source, warnings_, [&](int64_t text_bytes) { hold_text(text_bytes); });
+    stage.visit([&](const UsdPrim& prim) { add(prim); });
+    if (batches_.empty()) throw Error(ErrorKind::kInput, file_, "has no curves");
+    return join_curves(std::move(batches_), file_, budget_, warnings_);
+  }
+
+ private:
+  /// The layers stay open until all prims are read, so the budget holds the most text that was open at once.
+  void hold_text(int64_t bytes) {
+    if (bytes <= text_bytes_) return;
+    budget_.charge(bytes - text_bytes_, file_);
+    text_bytes_ = bytes;
+  }
 
   void add(const UsdPrim& prim) {
     if (prim.type == "NurbsCurves" || prim.type == "HermiteCurves")
       warnings_.add(prim.type + " prims are skipped", prim.position());
     if (prim.type != "BasisCurves") return;
-    UsdCurveBatch batch;
-    const std::string type = prim.token("type", "cubic"), basis = prim.token("basis", "bezier"),
-                      wrap = prim.token("wrap", "nonperiodic");
-    const std::optional<UsdCurveForm> form = UsdCurveForm::of(type, basis, wrap);
-    if (!form) prim.fail(fmt::format("unknown curves: type '{}', basis '{}', wrap '{}'", type, basis, wrap));
+    CurveBatch batch;
+    const std::optional<CurveForm> form = usd_curve_form(prim);
+    if (!form) {
+      prim.fail(fmt::format("unknown curves: type '{}', basis '{}', wrap '{}'", prim.token("type", "cubic"),
+                            prim.token("basis", "bezier"), prim.token("wrap", "nonperiodic")));
+    }
     batch.form = *form;
-    charge(prim);
+    const int64_t reading = reading_bytes(prim);
+    budget_.charge(reading, prim.position());
     add_vertices(prim, batch);
     add_widths(prim, batch);
     add_primvars(prim, batch);
+    budget_.release(reading);
     if (batch.counts.empty()) return;
-    strands_ += batch.counts.size();
+    budget_.charge(static_cast<int64_t>(batch.bytes()), prim.position());
     batches_.push_back(std::move(batch));
   }
 
-  UsdCurvesFile finish(const std::filesystem::path& path) {
-    if (batches_.empty()) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no curves");
-    if (batches_.size() > 1 && bytes_ + joined_attribute_bytes(batches_) > options_.max_bytes)
-      refuse({path.string()});
-    UsdCurvesFile file;
-    const bool unwidthed = std::any_of(batches_.begin(), batches_.end(),
-                                       [](const UsdCurveBatch& b) { return b.widths.values.empty(); });
-    const bool widthed = std::any_of(batches_.begin(), batches_.end(),
-                                     [](const UsdCurveBatch& b) { return !b.widths.values.empty(); });
-    if (unwidthed && widthed)
-      warnings_.add("some curves have no widths; they get the default", {path.string()});
-    file.has_widths = widthed;
-    file.strands = join_usd_curves(std::move(batches_));
-    file.warnings = warnings_.lines();
-    return file;
-  }
-
- private:
-  /// Fails before the numbers of a prim are read if they do not fit.
-  void charge(const UsdPrim& prim) {
+  /// The max memory that the numbers of a prim need while they are read.
+  static int64_t reading_bytes(const UsdPrim& prim) {
+    int64_t bytes = 0;
     for (const std::string& name : prim.attribute_names()) {
       const std::optional<UsdValue> value = prim.find(name);
       if (!value) continue;
@@ -76,17 +76,12 @@ class UsdCurvesReader {
                                : 0;
         if (size <= kMaxPrimvarComponents) per_text *= static_cast<int64_t>(std::max<size_t>(size, 1));
       }
-      bytes_ += per_text * static_cast<int64_t>(value->text.end - value->text.begin);
+      bytes += per_text * static_cast<int64_t>(value->text.end - value->text.begin);
     }
-    if (bytes_ > options_.max_bytes) refuse(prim.position());
-  }
-  [[noreturn]] void refuse(const SourcePosition& place) const {
-    throw Error(ErrorKind::kMemory, place,
-                fmt::format("reading the strands needs more than the free memory, {}",
-                            memory_text(options_.max_bytes)));
+    return bytes;
   }
 
-  void add_vertices(const UsdPrim& prim, UsdCurveBatch& batch) {
+  void add_vertices(const UsdPrim& prim, CurveBatch& batch) {
     const std::optional<UsdValue> counts = prim.find("curveVertexCounts"), points = prim.find("points");
     if (!counts || !points) {
       warnings_.add("curves without points are skipped", prim.position());
@@ -115,21 +110,19 @@ class UsdCurvesReader {
           fmt::format("curveVertexCounts add up to {}, but there are {} points", sum, vertices));
     }
     batch.to_world = prim.to_world;
-    sizes_ = UsdPrimvarCounts{batch.counts.size(), 0, static_cast<size_t>(vertices), 0};
+    sizes_ = PrimvarCounts{batch.counts.size(), 0, static_cast<size_t>(vertices), 0};
     for (const uint32_t n : batch.counts) sizes_.varying += batch.form.varying(n);
     sizes_.face_varying = sizes_.varying;  // the same for curves
   }
 
-  void add_widths(const UsdPrim& prim, UsdCurveBatch& batch) {
+  void add_widths(const UsdPrim& prim, CurveBatch& batch) {
     const std::string name = prim.find("primvars:widths") ? "primvars:widths" : "widths";
-    std::optional<UsdPrimvar> widths = usd_primvar(prim, name, "vertex", sizes_, warnings_);
+    std::optional<Primvar> widths = usd_primvar(prim, name, "vertex", sizes_, warnings_);
     if (!widths || widths->components != 1 || widths->values.empty()) return;
-    const float factor = 0.5f * length_factor(batch.to_world);
-    for (float& width : widths->values) width *= factor;
-    batch.widths = std::move(*widths);
+    batch.set_widths(std::move(*widths));
   }
 
-  void add_primvars(const UsdPrim& prim, UsdCurveBatch& batch) {
+  void add_primvars(const UsdPrim& prim, CurveBatch& batch) {
     static constexpr std::string_view kOwn[] = {"primvars:widths",       "primvars:ids",
                                                 "primvars:id",           "primvars:groom:face",
                                                 "primvars:groom:faceUv", "primvars:groom:priority"};
@@ -137,7 +130,7 @@ class UsdCurvesReader {
     for (const std::string& name : prim.attribute_names()) {
       if (!name.starts_with("primvars:") || name.ends_with(":indices")) continue;
       if (std::find(std::begin(kOwn), std::end(kOwn), name) != std::end(kOwn)) continue;
-      std::optional<UsdPrimvar> primvar = usd_primvar(prim, name, "constant", sizes_, warnings_);
+      std::optional<Primvar> primvar = usd_primvar(prim, name, "constant", sizes_, warnings_);
       if (!primvar || primvar->values.empty()) continue;
       if (primvar->components > kMaxPrimvarComponents || batch.attributes.size() == kMaxPrimvars) {
         warnings_.add("primvars of more than 16 numbers, or beyond the first 32, are skipped",
@@ -155,7 +148,7 @@ class UsdCurvesReader {
     }
   }
 
-  void add_ids(const UsdPrim& prim, UsdCurveBatch& batch) {
+  void add_ids(const UsdPrim& prim, CurveBatch& batch) {
     for (const char* name : {"primvars:ids", "ids", "primvars:id"}) {
       const std::optional<UsdValue> value = prim.find(name);
       if (!value || usd_components(value->attribute->type) != 1) continue;
@@ -170,34 +163,18 @@ class UsdCurvesReader {
     }
   }
 
-  const UsdCurvesOptions options_;
-  UsdWarnings& warnings_;
-  UsdPrimvarCounts sizes_;
-  std::vector<UsdCurveBatch> batches_;
-  size_t strands_ = 0;
-  int64_t bytes_ = 0;
+  const SourcePosition file_;
+  ReadBudget budget_;
+  ReadWarnings warnings_;
+  PrimvarCounts sizes_;
+  std::vector<CurveBatch> batches_;
+  int64_t text_bytes_ = 0;
 };
-
-UsdCurvesFile read_curves_of(UsdStage& stage, const std::filesystem::path& path,
-                             const UsdCurvesOptions& options, UsdWarnings& warnings) {
-  UsdCurvesReader reader(options, warnings);
-  stage.visit([&](const UsdPrim& prim) { reader.add(prim); });
-  return reader.finish(path);
-}
 
 }  // namespace
 
-UsdCurvesFile read_usd_curves(const std::filesystem::path& path, const UsdCurvesOptions& options) {
-  UsdWarnings warnings;
-  UsdStage stage(path, warnings);
-  return read_curves_of(stage, path, options, warnings);
-}
-
-UsdCurvesFile read_usd_curves(const std::filesystem::path& path, std::string_view text,
-                              const UsdCurvesOptions& options) {
-  UsdWarnings warnings;
-  UsdStage stage(path, text, warnings);
-  return read_curves_of(stage, path, options, warnings);
+CurvesFile read_usd_curves(const UsdSource& source, const CurvesReadOptions& options) {
+  return UsdCurvesReader(options, source.path).read(source);
 }
 
 }  // namespace pelage

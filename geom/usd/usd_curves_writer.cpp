@@ -11,11 +11,11 @@ namespace {
 
 constexpr UsdWriter::Layout kPointLayout{3, 4};
 
-struct CurveForm {
+struct UsdCurveTokens {
   const char *type, *basis, *wrap;
 };
 
-CurveForm form_of(CurveBasis basis) {
+UsdCurveTokens form_of(CurveBasis basis) {
   switch (basis) {
     case CurveBasis::kLinear:
       return {"linear", "bspline", "nonperiodic"};
@@ -134,7 +134,7 @@ class CurvesPrim {
     const Strands& strands = first.strands;
     counts_ = counts_of(strands);
     widths_ = diameters(strands, 0);
-    const CurveForm form = form_of(strands.basis());
+    const UsdCurveTokens form = form_of(strands.basis());
     usd_.open(fmt::format("def BasisCurves {}", usd_string(name)));
     usd_.line(fmt::format("uniform token type = \"{}\"", form.type));
     usd_.line(fmt::format("uniform token basis = \"{}\"", form.basis));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/usd/usd_files.h"
 
+#include <algorithm>
+#include <fstream>
 #include <set>
 #include <string>
 
 #include "base/file.h"
-#include "geom/io/mesh_file.h"
 #include "geom/usd/usd_layer.h"
 
 namespace pelage {
@@ -26,14 +27,24 @@ void add_assets(const UsdPrimSpec& spec, std::vector<std::string>& assets) {
   }
 }
 
+/// Whether a file has the character that begins the name of an asset. Reads a part at a time.
+bool has_asset(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> part(1 << 16);
+  while (file) {
+    file.read(part.data(), static_cast<std::streamsize>(part.size()));
+    const auto end = part.begin() + static_cast<ptrdiff_t>(file.gcount());
+    if (std::find(part.begin(), end, '@') != end) return true;
+  }
+  return false;
+}
+
 std::vector<std::string> assets_of(const std::filesystem::path& path) {
   std::vector<std::string> assets;
   try {
-    const MappedFile file(path);
     // Most large files name no other, which is found faster than they are parsed.
-    const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-    if (text.find('@') == std::string_view::npos) return assets;
-    const UsdLayer layer(path, text);
+    if (!has_asset(path)) return assets;
+    const UsdLayer layer(path);
     add_assets(layer.sublayers(), assets);
     add_assets(layer.root(), assets);
   } catch (const Error&) {
@@ -43,6 +54,11 @@ std::vector<std::string> assets_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool is_usd_file(const std::filesystem::path& path) {
+  const std::string ending = lower_extension(path);
+  return ending == ".usda" || ending == ".usd" || ending == ".usdc" || ending == ".usdz";
+}
 
 std::vector<std::filesystem::path> usd_files(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};

@@ -6,6 +6,9 @@
 
 namespace pelage {
 
+/// Returns whether the name of a file has an extension of USD.
+bool is_usd_file(const std::filesystem::path& path);
+
 /// Returns the files of a USD scene: the file itself, then every file that it and its layers name as
 /// sublayer, reference or payload, also in variants that are not selected, each once. Leaves out files that
 /// do not exist. A file that cannot be read names none.

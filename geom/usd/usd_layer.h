@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/mapped_file.h"
 
 namespace pelage {
 
@@ -62,11 +61,12 @@ struct UsdPrimSpec {
 /// A layer of USD: one .usda file. Immutable. Thread safety: const members may be called from any thread.
 class UsdLayer {
  public:
-  /// Maps and parses a file. Throws Error (kInput) with line and column for mistakes of its syntax, for text
-  /// that is nested deeper than 64 levels, and for more than a million prims and attributes. Names the
-  /// command that converts a binary file.
+  /// Reads and parses a file, and keeps its text: values stay text until they are needed, and a program may
+  /// change the file in the meantime. Throws Error (kInput) with line and column for mistakes of its syntax,
+  /// for text that is nested deeper than 64 levels, and for more than a million prims and attributes. Names
+  /// the command that converts a binary file.
   explicit UsdLayer(const std::filesystem::path& path);
-  /// Parses a text that is in memory. `path`: for messages.
+  /// Parses a text that is in memory and outlives the layer. `path`: for messages.
   UsdLayer(const std::filesystem::path& path, std::string_view text);
 
   const std::filesystem::path& path() const { return path_; }
@@ -94,7 +94,7 @@ class UsdLayer {
   };
 
   std::filesystem::path path_;
-  MappedFile file_;
+  const std::string contents_;  // of the file
   std::string_view text_;
   std::vector<UsdArc> sublayers_;
   std::string default_prim_;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geom/io/mesh_joiner.h"
+#include "geom/interchange/mesh_joiner.h"
 #include "geom/usd/usd_primvar.h"
 #include "geom/usd/usd_values.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 class UsdMeshReader {
  public:
-  UsdMeshReader(ControlMesh& mesh, const std::filesystem::path& path, UsdWarnings& warnings)
+  UsdMeshReader(ControlMesh& mesh, const std::filesystem::path& path, ReadWarnings& warnings)
       : mesh_(mesh), joiner_(mesh, path), warnings_(warnings) {}
 
   void add(const UsdPrim& prim) {
@@ -148,7 +148,7 @@ class UsdMeshReader {
 
   ControlMesh& mesh_;
   MeshJoiner joiner_;
-  UsdWarnings& warnings_;
+  ReadWarnings& warnings_;
   std::string mesh_path_;
   size_t faces_ = 0;  // of the mesh that was added last
 };
@@ -157,41 +157,38 @@ class UsdMeshReader {
 /// by doubling.
 constexpr size_t kMeshMemoryPerText = 6;
 
-UsdMeshFile read_meshes(UsdStage& stage, const std::filesystem::path& path, const UsdMeshReserve& reserve,
-                        UsdWarnings& warnings) {
-  UsdMeshFile file;
-  UsdMeshReader reader(file.mesh, path, warnings);
-  stage.visit([&](const UsdPrim& prim) {
-    if (reserve) {
-      size_t text = 0;
-      for (const std::string& name :
-           prim.type == "Mesh" ? prim.attribute_names() : std::vector<std::string>()) {
-        if (const std::optional<UsdValue> value = prim.find(name))
-          text += value->text.end - value->text.begin;
-      }
-      reserve(static_cast<int64_t>(file.mesh.bytes() + kMeshMemoryPerText * text));
-    }
-    reader.add(prim);
-  });
-  if (file.mesh.face_count() == 0) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no mesh");
-  reader.finish();
-  file.warnings = warnings.lines();
-  return file;
+/// Bytes of the values of a prim.
+size_t text_of(const UsdPrim& prim) {
+  size_t text = 0;
+  for (const std::string& name : prim.attribute_names()) {
+    if (const std::optional<UsdValue> value = prim.find(name)) text += value->text.end - value->text.begin;
+  }
+  return text;
 }
 
 }  // namespace
 
-UsdMeshFile read_usd_mesh(const std::filesystem::path& path, const UsdMeshReserve& reserve) {
-  UsdWarnings warnings;
-  UsdStage stage(path, warnings);
-  return read_meshes(stage, path, reserve, warnings);
-}
-
-UsdMeshFile read_usd_mesh(const std::filesystem::path& path, std::string_view text,
-                          const UsdMeshReserve& reserve) {
-  UsdWarnings warnings;
-  UsdStage stage(path, text, warnings);
-  return read_meshes(stage, path, reserve, warnings);
+MeshFile read_usd_mesh(const UsdSource& source, const MeshReserve& reserve) {
+  ReadWarnings warnings;
+  MeshFile file;
+  int64_t text_bytes = 0;
+  const auto reserve_with_text = [&](size_t bytes) {
+    if (reserve) reserve(text_bytes + static_cast<int64_t>(bytes));
+  };
+  UsdStage stage(source, warnings, [&](int64_t bytes) {
+    text_bytes = bytes;
+    reserve_with_text(file.mesh.bytes());
+  });
+  UsdMeshReader reader(file.mesh, source.path, warnings);
+  stage.visit([&](const UsdPrim& prim) {
+    if (prim.type == "Mesh") reserve_with_text(file.mesh.bytes() + kMeshMemoryPerText * text_of(prim));
+    reader.add(prim);
+  });
+  if (file.mesh.face_count() == 0)
+    throw Error(ErrorKind::kInput, {source.path.string(), 0, 0}, "has no mesh");
+  reader.finish();
+  file.warnings = warnings.lines();
+  return file;
 }
 
 }  // namespace pelage

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/interchange/read_warnings.h"
 #include "geom/usd/usd_layer.h"
-#include "geom/usd/usd_warnings.h"
 
 namespace pelage {
 
@@ -61,7 +61,7 @@ class UsdPrimComposer {
   using Open = std::function<Stack(const std::filesystem::path& path)>;
 
   /// `open`: opens a file that exists.
-  UsdPrimComposer(Open open, UsdWarnings& warnings) : open_(std::move(open)), warnings_(warnings) {}
+  UsdPrimComposer(Open open, ReadWarnings& warnings) : open_(std::move(open)), warnings_(warnings) {}
 
   /// Returns the node of a child: what the sites of its parent state about it, and the arcs of these
   /// statements. `path`, `depth`: of the composed child. Throws Error (kInput) when prims refer to themselves
@@ -77,7 +77,7 @@ class UsdPrimComposer {
   void add_node(UsdPrimNode& node, UsdPrimNode added);
 
   const Open open_;
-  UsdWarnings& warnings_;
+  ReadWarnings& warnings_;
   std::string path_;  // of the prim at work
   int depth_ = 0;
   size_t nodes_ = 0, all_nodes_ = 0;

@@ -3,32 +3,18 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "geom/interchange/primvar.h"
 #include "geom/usd/usd_stage.h"
 
 namespace pelage {
 
-/// The elements of a primvar, with its indices applied.
-struct UsdPrimvar {
-  std::string interpolation;  ///< constant, uniform, varying, vertex or faceVarying
-  size_t components = 1;      ///< of an element, with elementSize
-  std::vector<float> values;
-  size_t count() const { return values.size() / components; }
-};
-
-/// How many elements a primvar has under each interpolation.
-struct UsdPrimvarCounts {
-  size_t uniform = 0, varying = 0, vertex = 0, face_varying = 0;
-};
-
-/// Reads an attribute or primvar of numbers; empty if it has no value, is not of numbers,
-/// or has elements of more than 16 numbers, which gives a warning. Without a stated
-/// interpolation, or with one that does not fit its size, the interpolation is the one that fits; a warning
-/// tells the second case. Throws Error (kInput) with the place of the attribute if no interpolation fits, or
-/// if an index is out of range.
-std::optional<UsdPrimvar> usd_primvar(const UsdPrim& prim, const std::string& attribute,
-                                      const std::string& usual_interpolation, const UsdPrimvarCounts& counts,
-                                      UsdWarnings& warnings);
+/// Reads an attribute or primvar of numbers. Returns nothing if it has no value or is not of numbers, or,
+/// with a warning, if its elements have more than kMaxPrimvarComponents numbers. If no interpolation is
+/// stated, or the stated one does not fit the number of values (a warning), uses the one that fits. Throws
+/// Error (kInput) with the place of the attribute if none fits, or if an index is out of range.
+std::optional<Primvar> usd_primvar(const UsdPrim& prim, const std::string& attribute,
+                                   const std::string& usual_interpolation, const PrimvarCounts& counts,
+                                   ReadWarnings& warnings);
 
 }  // namespace pelage

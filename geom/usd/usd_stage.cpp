@@ -70,38 +70,50 @@ void UsdPrim::fail(const std::string& message) const {
   throw Error(ErrorKind::kInput, position(), "<" + visible(path) + ">: " + message);
 }
 
-UsdStage::UsdStage(const std::filesystem::path& path, UsdWarnings& warnings)
-    : warnings_(warnings), composer_([this](const auto& file) { return open(file); }, warnings) {
-  root_ = open(path);
-}
-
-UsdStage::UsdStage(const std::filesystem::path& path, std::string_view text, UsdWarnings& warnings)
-    : warnings_(warnings), composer_([this](const auto& file) { return open(file); }, warnings) {
-  auto stack = std::make_shared<UsdLayerStack>();
-  stack->layers.push_back(std::make_shared<const UsdLayer>(path, text));
-  std::vector<std::string> ancestors{key_of(path)};
-  add_sublayers(*stack->layers.front(), *stack, ancestors);
-  root_ = stack;
+UsdStage::UsdStage(const UsdSource& source, ReadWarnings& warnings, Reserve reserve)
+    : warnings_(warnings),
+      reserve_(std::move(reserve)),
+      composer_([this](const auto& file) { return open(file); }, warnings) {
+  root_ = source.text ? with_sublayers(std::make_shared<const UsdLayer>(source.path, *source.text),
+                                       key_of(source.path))
+                      : open(source.path);
 }
 
 UsdStage::Stack UsdStage::open(const std::filesystem::path& path) {
   const std::string key = key_of(path);
   if (Stack known = open_[key].lock()) return known;
-  auto stack = std::make_shared<UsdLayerStack>();
-  stack->layers.push_back(open_layer(path, key));
-  std::vector<std::string> ancestors{key};
-  add_sublayers(*stack->layers.front(), *stack, ancestors);
+  const Stack stack = with_sublayers(open_layer(path, key), key);
   open_[key] = stack;
   recent_.push_back(stack);
   if (recent_.size() > kRecentLayers) recent_.pop_front();
   return stack;
 }
 
+UsdStage::Stack UsdStage::with_sublayers(std::shared_ptr<const UsdLayer> layer, const std::string& key) {
+  auto stack = std::make_shared<UsdLayerStack>();
+  stack->layers.push_back(std::move(layer));
+  std::vector<std::string> ancestors{key};
+  add_sublayers(*stack->layers.front(), *stack, ancestors);
+  return stack;
+}
+
 std::shared_ptr<const UsdLayer> UsdStage::open_layer(const std::filesystem::path& path,
                                                      const std::string& key) {
-  std::weak_ptr<const UsdLayer>& known = layers_[key];
-  std::shared_ptr<const UsdLayer> layer = known.lock();
-  if (!layer) known = layer = std::make_shared<const UsdLayer>(path);
+  const auto known = layers_.find(key);
+  std::shared_ptr<const UsdLayer> layer = known == layers_.end() ? nullptr : known->second.lock();
+  if (layer) return layer;
+  if (reserve_) {
+    std::erase_if(layers_, [](const auto& entry) { return entry.second.expired(); });
+    std::error_code error;  // UsdLayer reports it
+    const uintmax_t size = std::filesystem::file_size(path, error);
+    int64_t bytes = error ? 0 : static_cast<int64_t>(size);
+    for (const auto& [name, open] : layers_) {
+      if (const auto other = open.lock()) bytes += static_cast<int64_t>(other->text().size());
+    }
+    reserve_(bytes);
+  }
+  layer = std::make_shared<const UsdLayer>(path);
+  layers_[key] = layer;
   return layer;
 }
 

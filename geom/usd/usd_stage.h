@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "geom/interchange/read_warnings.h"
 #include "geom/usd/usd_layer.h"
 #include "geom/usd/usd_prim_index.h"
-#include "geom/usd/usd_warnings.h"
+#include "geom/usd/usd_source.h"
 
 namespace pelage {
 
@@ -48,10 +49,11 @@ class UsdPrim {
 /// afterwards. For use by one thread.
 class UsdStage {
  public:
-  /// `warnings`: receives what is skipped. Throws Error (kInput) as UsdLayer does.
-  UsdStage(const std::filesystem::path& path, UsdWarnings& warnings);
-  /// Does the same with a text. `path`: for messages, and for files that the text names.
-  UsdStage(const std::filesystem::path& path, std::string_view text, UsdWarnings& warnings);
+  /// Called before a file is read, with the bytes of text of all open layers, this file included. May throw.
+  using Reserve = std::function<void(int64_t text_bytes)>;
+
+  /// Adds a warning to `warnings` for everything that is skipped. Throws Error (kInput) as UsdLayer does.
+  UsdStage(const UsdSource& source, ReadWarnings& warnings, Reserve reserve = {});
 
   UsdStage(const UsdStage&) = delete;
   UsdStage& operator=(const UsdStage&) = delete;
@@ -68,12 +70,14 @@ class UsdStage {
 
   Stack open(const std::filesystem::path& path);
   std::shared_ptr<const UsdLayer> open_layer(const std::filesystem::path& path, const std::string& key);
+  Stack with_sublayers(std::shared_ptr<const UsdLayer> layer, const std::string& key);
   void add_sublayers(const UsdLayer& layer, UsdLayerStack& stack, std::vector<std::string>& ancestors);
   void visit_children(const UsdPrim& parent, const UsdPrimNode& node, int depth,
                       const std::function<void(const UsdPrim&)>& use);
   bool is_shown(const UsdPrim& prim);
 
-  UsdWarnings& warnings_;
+  ReadWarnings& warnings_;
+  const Reserve reserve_;
   Stack root_;
   std::map<std::string, std::weak_ptr<const UsdLayerStack>> open_;
   std::map<std::string, std::weak_ptr<const UsdLayer>> layers_;
@@ -85,6 +89,6 @@ class UsdStage {
 
 /// Returns the matrix of a prim's xformOps, for row vectors. Sets `resets` if the prim ignores the transform
 /// of its parent. Throws Error (kInput) for malformed values.
-M44f usd_local_transform(const UsdPrim& prim, bool& resets, UsdWarnings& warnings);
+M44f usd_local_transform(const UsdPrim& prim, bool& resets, ReadWarnings& warnings);
 
 }  // namespace pelage

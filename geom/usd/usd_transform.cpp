@@ -70,7 +70,7 @@ M44d matrix_of(const std::string& kind, const std::vector<double>& v, bool& know
 
 }  // namespace
 
-M44f usd_local_transform(const UsdPrim& prim, bool& resets, UsdWarnings& warnings) {
+M44f usd_local_transform(const UsdPrim& prim, bool& resets, ReadWarnings& warnings) {
   resets = false;
   const std::optional<UsdValue> order = prim.find("xformOpOrder");
   M44d matrix;

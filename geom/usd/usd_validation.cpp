@@ -32,12 +32,11 @@ std::string at_time(double time) { return std::isnan(time) ? "" : fmt::format(" 
 
 class CurvesValidator {
  public:
-  CurvesValidator(const UsdPrim& prim, UsdFindings& findings) : prim_(prim), findings_(findings) {}
+  CurvesValidator(const UsdPrim& prim, ValidationReport& findings) : prim_(prim), findings_(findings) {}
 
   void check() {
     ++findings_.curves;
-    const std::optional<UsdCurveForm> form = UsdCurveForm::of(
-        prim_.token("type", "cubic"), prim_.token("basis", "bezier"), prim_.token("wrap", "nonperiodic"));
+    const std::optional<CurveForm> form = usd_curve_form(prim_);
     if (!form) return problem("type, basis or wrap is unknown");
     const std::optional<UsdValue> counts = prim_.find("curveVertexCounts"), points = prim_.find("points");
     if (!counts || !points) return problem("it has no curveVertexCounts or no points");
@@ -57,7 +56,7 @@ class CurvesValidator {
   void problem(const std::string& text) { findings_.problems.push_back(line(text)); }
   void remark(const std::string& text) { findings_.remarks.push_back(line(text)); }
 
-  void check_counts(const UsdValue& counts, const UsdCurveForm& form) {
+  void check_counts(const UsdValue& counts, const CurveForm& form) {
     size_t few = 0, one = 0;
     for (const int64_t n : usd_integers(*counts.layer, counts.text)) {
       const auto count = static_cast<uint32_t>(std::clamp<int64_t>(n, 0, UINT32_MAX));
@@ -157,7 +156,7 @@ class CurvesValidator {
   static double key(double time) { return std::isnan(time) ? -1e300 : time; }
 
   const UsdPrim& prim_;
-  UsdFindings& findings_;
+  ValidationReport& findings_;
   size_t vertices_ = 0, varying_ = 0, curves_ = 0;
   float widest_ = 0;
   std::map<double, Box3f> boxes_;
@@ -165,9 +164,9 @@ class CurvesValidator {
 
 }  // namespace
 
-UsdFindings validate_usd(const std::filesystem::path& path) {
-  UsdFindings findings;
-  UsdWarnings warnings;
+ValidationReport validate_usd(const std::filesystem::path& path) {
+  ValidationReport findings;
+  ReadWarnings warnings;
   UsdStage stage(path, warnings);
   stage.visit([&](const UsdPrim& prim) {
     findings.meshes += prim.type == "Mesh";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 
 #include "base/file.h"
 #include "base/visible_text.h"
@@ -272,8 +273,8 @@ class UsdaParser {
   size_t items_ = 0;
 };
 
-UsdLayer::UsdLayer(const std::filesystem::path& path) : path_(path), file_(path) {
-  text_ = {reinterpret_cast<const char*>(file_.bytes().data()), file_.bytes().size()};
+UsdLayer::UsdLayer(const std::filesystem::path& path)
+    : path_(path), contents_(read_file(path, std::numeric_limits<size_t>::max())), text_(contents_) {
   parse();
 }
 

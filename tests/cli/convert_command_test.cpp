@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +50,26 @@ TEST_F(ConvertCommandTest, KeepsStrandsAndSaysWhatItDropped) {
   ASSERT_EQ(file.strands.strand_count(), 2u);
   EXPECT_EQ(file.strands.point(4).x, 2);
   EXPECT_EQ(file.strands.point(7).y, 0.75f);
+}
+
+TEST_F(ConvertCommandTest, RefusesFilesThatNeedMoreThanTheMemory) {
+  for (const char* name : {"a.hair", "a.tfx", "a.usda", "a.abc"}) {
+    options_.input = (folder_.path() / name).string();
+    write_strands(options_.input, three_strands());
+    const std::optional<Options> parsed = parse_options(
+        {"convert", options_.input, (folder_.path() / "b.usda").string(), "--memory", "64"}, std::cout);
+    ASSERT_TRUE(parsed);
+    try {
+      run_convert(*parsed);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+      EXPECT_EQ(
+          std::string(error.what()),
+          options_.input + ": reading the strands needs more than the free memory, 64 bytes; raise --memory");
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.usda"));
+  }
 }
 
 /// Converts to a file of this name. Returns what standard error got.

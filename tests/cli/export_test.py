@@ -52,7 +52,7 @@ class ExportTest(ProgramTest):
         self.assertTrue((self.path / "back.hair").stat().st_size > 0)
 
     def test_every_format_has_a_readme(self):
-        for form, stage in (("usd", "scene.usda"), ("pbrt", "scene.pbrt"), ("mitsuba", "scene.xml")):
+        for form, stage in (("usd", "scene.usda"), ("pbrt", "scene.pbrt"), ("mitsuba", "scene.xml"), ("alembic", "scene.abc")):
             folder = self.export(form)
             self.assertTrue((folder / stage).exists())
             self.assertIn(stage, (folder / "README.md").read_text())

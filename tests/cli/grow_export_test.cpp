@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "geom/io/strand_file.h"
 #include "tests/world/small_scene.h"
@@ -68,6 +69,49 @@ characters:
   EXPECT_EQ(std::count(color->values.begin(), color->values.end(), 0.0f) % 60, 0)
       << "red has no green and blue";
   EXPECT_GT(std::count(color->values.begin(), color->values.end(), 0.0f), 0);
+}
+
+TEST_F(GrowExportTest, GroomsNeedNoCharacter) {
+  // Without characters, all grooms grow where their skins are; --groom grows one that no character wears.
+  scene_.write("bare.yaml", R"(pelage: 1
+skins: {still: {mesh: cube.obj}}
+grooms:
+  red: {skin: still, strands: 30, operators: [{length: {value: 0.4}}]}
+  blue: {skin: still, strands: 20, operators: [{length: {value: 0.4}}]}
+)");
+  scene_.write("worn.yaml", R"(include: scene.yaml
+grooms: {red: {skin: still, strands: 30, operators: [{length: {value: 0.4}}]}}
+)");
+  scene_.write("empty.yaml", R"(pelage: 1
+skins: {still: {mesh: cube.obj}}
+)");
+  Options options;
+  options.command = Command::kGrow;
+  options.progress = ProgressStyle::kQuiet;
+  options.output = scene_.path("bare.usda");
+  const auto grow = [&](const char* scene, const char* groom) {
+    options.input = scene_.path(scene);
+    options.groom = groom;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_grow(options), 0);
+    testing::internal::GetCapturedStdout();
+    return strands(options.output);
+  };
+  EXPECT_EQ(grow("bare.yaml", ""), 50u);
+  EXPECT_EQ(grow("bare.yaml", "blue"), 20u);
+  EXPECT_EQ(grow("worn.yaml", "red"), 30u);
+  EXPECT_EQ(grow("worn.yaml", ""), 400u);
+  options.input = scene_.path("empty.yaml");
+  options.groom.clear();
+  options.output = scene_.path("none.usda");
+  try {
+    run_grow(options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              options.output + ": there are no strands to write: the scene grows no groom at this frame");
+  }
+  EXPECT_FALSE(std::filesystem::exists(options.output));
 }
 
 TEST_F(GrowExportTest, WritesThoseOfThePicturesLevelOfDetailWhereAsked) {

@@ -2,9 +2,11 @@
 #include "cli/info.h"
 
 #include <fstream>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
@@ -45,6 +47,43 @@ magnets: {window: {type: rectangle}}
         "key: sphere\n", "1 magnets\n  window: rectangle\n",
         "sun: sun, 5000 K, visible, illuminates rat.under, pack, shadowed by nothing\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+TEST(InfoMemory, FilesThatNeedMoreAreRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const std::string folder_name = folder.path().string() + "/";
+  const std::string corners = "(0, 0, 0), (1, 0, 0), (0, 1, 0)";
+  std::ofstream(folder_name + "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder_name + "a.usda") << "#usda 1.0\ndef Mesh \"m\" { int[] faceVertexCounts = [3]\n int[] "
+                                           "faceVertexIndices = [0, 1, 2]\n point3f[] points = ["
+                                        << corners << "] }\n";
+  std::ofstream(folder_name + "b.usda")
+      << "#usda 1.0\ndef BasisCurves \"c\" { uniform token type = \"linear\"\n int[] curveVertexCounts = "
+         "[3]\n point3f[] points = ["
+      << corners << "] }\n";
+  ExrImage image;
+  image.width = image.height = 4;
+  image.channels = {{"Y", ChannelType::kFloat, std::vector<float>(16), {}}};
+  write_exr(folder_name + "a.exr", image);
+  for (const char* name : {"a.obj", "a.usda", "b.usda", "a.exr"}) {
+    for (const char* memory : {"60", "1M"}) {
+      const std::optional<Options> options =
+          parse_options({"info", folder_name + name, "--memory", memory}, std::cout);
+      ASSERT_TRUE(options);
+      try {
+        testing::internal::CaptureStdout();
+        run_info(*options);
+        testing::internal::GetCapturedStdout();
+        EXPECT_EQ(std::string(memory), "1M") << name;
+      } catch (const Error& error) {
+        testing::internal::GetCapturedStdout();
+        EXPECT_EQ(std::string(memory), "60") << name << error.what();
+        EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+        EXPECT_EQ(error.problems().size(), 1u);
+        EXPECT_NE(std::string(error.what()).find("--memory"), std::string::npos) << error.what();
+      }
+    }
   }
 }
 

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "geom/alembic/alembic_archive.h"
+#include "geom/alembic/alembic_validation.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/mesh_file.h"
 #include "geom/io/strand_file.h"
@@ -69,7 +71,7 @@ TEST_F(SceneExport, UsdRoundTripKeepsTheStrands) {
 
 TEST_F(SceneExport, UsdStageIsValidAndOpensWithoutStrands) {
   const std::filesystem::path folder = write(ExportFormat::kUsd);
-  const UsdFindings findings = validate_usd(folder / "fur.usda");
+  const ValidationReport findings = validate_usd(folder / "fur.usda");
   EXPECT_EQ(findings.problems, std::vector<std::string>());
   EXPECT_EQ(findings.strands, 930u);
   EXPECT_EQ(findings.meshes, 2u);
@@ -108,7 +110,7 @@ TEST_F(SceneExport, UsdMeshIsTheCage) {
 /// A light of the stage has the place, direction, size and radiance of the scene.
 TEST_F(SceneExport, UsdLightsAndCamera) {
   const std::filesystem::path folder = write(ExportFormat::kUsd, {kStill});
-  UsdWarnings warnings;
+  ReadWarnings warnings;
   UsdStage stage(folder / "fur.usda", warnings);
   int seen = 0;
   stage.visit([&](const UsdPrim& prim) {
@@ -182,6 +184,41 @@ TEST_F(SceneExport, MitsubaHasTheStrandsAsBSplines) {
   ASSERT_EQ(points.size(), 7u);
   const V3f root = (points[0] + 4.0f * points[1] + points[2]) / 6.0f;
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(root[axis], points[1][axis], 1e-5);
+}
+
+TEST_F(SceneExport, AlembicHasTheStrandsOfEachCoat) {
+  const std::filesystem::path folder = write(ExportFormat::kAlembic, {kStill});
+  EXPECT_EQ(files_of_export_, std::vector<std::filesystem::path>{folder / "fur.abc"});
+  const AlembicArchive archive(folder / "fur.abc");
+  std::vector<std::string> names;
+  for (const AlembicObject& character : archive.children(archive.top())) {
+    for (const AlembicObject& coat : archive.children(character))
+      names.push_back(std::string(character.name) + "." + std::string(coat.name));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"walker.coat", "post.whiskers"}));
+  // Two coats have the same ids, so their strands stay in the order of the file.
+  const Strands read = read_strands(folder / "fur.abc").strands;
+  std::vector<float> points;
+  for (const std::string& name : names) {
+    const Strands expected = grown(name, {kStill});
+    points.insert(points.end(), expected.points().begin(), expected.points().end());
+  }
+  EXPECT_EQ(std::vector<float>(read.points().begin(), read.points().end()), points);
+  ASSERT_NE(read.find_attribute("color"), nullptr);
+  EXPECT_EQ(validate_alembic(folder / "fur.abc").problems, std::vector<std::string>());
+  EXPECT_NE(read_file(folder / "README.md").find("the files hold only strands"), std::string::npos);
+}
+
+TEST_F(SceneExport, AlembicHasAFilePerFrame) {
+  const std::filesystem::path folder = write(ExportFormat::kAlembic, {kStill, {"frames", "1-2"}});
+  EXPECT_EQ(files_of_export_,
+            (std::vector<std::filesystem::path>{folder / "fur.0001.abc", folder / "fur.0002.abc"}));
+  const Strands first = read_strands(files_of_export_[0]).strands,
+                second = read_strands(files_of_export_[1]).strands;
+  ASSERT_EQ(first.point_count(), second.point_count());
+  EXPECT_NE(first.point(0), second.point(0)) << "the walker moves";
+  EXPECT_EQ(first.point(first.point_count() - 1), second.point(second.point_count() - 1))
+      << "the post does not";
 }
 
 TEST_F(SceneExport, ReadmeStatesWhatIsLost) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file.h"
 #include "base/temporary_folder.h"
-#include "geom/alembic/alembic_strands.h"
+#include "geom/io/alembic_strands.h"
 #include "tests/fuzz/corpus.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/geom/random_strands.h"

@@ -37,7 +37,8 @@ void feed_mesh(const std::filesystem::path& path) {
   }
 }
 
-void feed_scene(const std::filesystem::path& path, UsdFindings (*validate)(const std::filesystem::path&)) {
+void feed_scene(const std::filesystem::path& path,
+                ValidationReport (*validate)(const std::filesystem::path&)) {
   for (const int reader : {0, 1, 2}) {
     try {
       if (reader == 0) feed_strands(path);

@@ -84,7 +84,8 @@ def read_shared_libraries(text):
 
 
 def read_inner_layers(text):
-    """Folder of a module -> the folders of the same module that it may include; in the order of the table."""
+    """Folder of a module -> the folders of the same module that it may include; in the order of the table. A folder "."
+    stands for the files directly in the module."""
     if "### Inner layers" not in text:
         return {}
     return {re.fullmatch(r"`([a-z]+/[a-z]+)/`", folder).group(1): may_include.split() if may_include != "–" else []
@@ -98,7 +99,7 @@ def inner_violations(root, text):
     found = []
     for folder, may_include in layers.items():
         module = folder.split("/")[0]
-        for other in may_include:
+        for other in set(may_include) - {"."}:
             if f"{module}/{other}" not in order[:order.index(folder)]:
                 found.append(f"the table lets {folder} include {other}, which is no folder above it")
     layered_modules = {folder.split("/")[0] for folder in layers}

@@ -25,6 +25,7 @@ TABLES = """
 ### Inner layers
 | folder | lives there | may include |
 |---|---|---|
+| `render/light/` | - | . |
 | `render/accel/` | - | – |
 | `render/path/` | - | accel |
 """
@@ -86,6 +87,8 @@ class PlantedIncludes(unittest.TestCase):
         self.assert_refused("render/accel/a.h", '"render/path/b.h"')
         self.assert_refused("render/accel/fur/a.h", '"render/path/b.h"')
         self.assert_refused("render/accel/a.h", '"render/b.h"')
+        self.assert_allowed("render/light/a.h", '"render/b.h"')
+        self.assert_refused("render/light/a.h", '"render/accel/b.h"')
         self.assertEqual(self.found("render/new/a.h", '"base/b.h"'),
                          ["render/new/a.h: render/new is not in the table of inner layers"])
 

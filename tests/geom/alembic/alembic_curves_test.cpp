@@ -7,31 +7,25 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "geom/alembic/alembic_curves_file.h"
+#include "geom/alembic/alembic_values.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
+#include "tests/geom/attributed_strands.h"
 
 namespace pelage::alembic_curves_test {
 namespace {
 
 using namespace ogawa_bytes;
 
-UsdCurvesFile read(const std::string& bytes) {
+CurvesFile read(const std::string& bytes) {
   const TemporaryFolder folder;
   write_file(folder.path() / "a.abc", bytes);
   return read_alembic_curves(folder.path() / "a.abc");
 }
 /// The curves of a file with one object.
-UsdCurvesFile read_curves(const std::vector<int32_t>& counts, const std::string& form,
-                          const std::vector<Part>& geometry, const std::vector<Part>& params,
-                          OgawaBytes& bytes) {
+CurvesFile read_curves(const std::vector<int32_t>& counts, const std::string& form,
+                       const std::vector<Part>& geometry, const std::vector<Part>& params,
+                       OgawaBytes& bytes) {
   return read(bytes.file({bytes.curves("c", counts, form, geometry, params)}));
-}
-
-const StrandAttribute& attribute(const StrandArrays& a, const std::string& name) {
-  const auto found = std::find_if(a.attributes.begin(), a.attributes.end(),
-                                  [&](const StrandAttribute& one) { return one.name == name; });
-  EXPECT_NE(found, a.attributes.end()) << name;
-  static const StrandAttribute kNone;
-  return found == a.attributes.end() ? kNone : *found;
 }
 
 TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
@@ -43,7 +37,7 @@ TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
       const std::vector<Part> geometry{
           b.array("width", kFloat, 1, {raw(x)}, "geoScope=" + scope),
           b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
-      const UsdCurvesFile file = read_curves({5, 5, 5}, curve_form(0, 0, basis), geometry, {}, b);
+      const CurvesFile file = read_curves({5, 5, 5}, curve_form(0, 0, basis), geometry, {}, b);
       EXPECT_EQ(file.warnings, std::vector<std::string>());
       ASSERT_EQ(file.strands.points.size(), 4u * 9);
       for (size_t i = 0; i < 9; ++i)
@@ -55,7 +49,7 @@ TEST(AlembicCurves, ValuesOfAllScopesLosePhantoms) {
   const std::vector<Part> geometry{
       b.array("width", kFloat, 1, {raw<float>({2, 4, 6, 2, 4, 6})}, "geoScope=var"),
       b.compound(".userProperties", {b.scalar(kAlembicPhantomEnds, kInt16, 1, {raw<int16_t>({1})})})};
-  const UsdCurvesFile file = read_curves({5, 5}, curve_form(0, 0, 2), geometry, {}, b);
+  const CurvesFile file = read_curves({5, 5}, curve_form(0, 0, 2), geometry, {}, b);
   EXPECT_EQ(file.warnings, std::vector<std::string>());
   for (size_t i = 0; i < 6; ++i) EXPECT_EQ(file.strands.points[4 * i + 3], file.strands.points[4 * i]);
 }
@@ -84,7 +78,7 @@ TEST(AlembicCurves, AllTypesBasesAndWrapsAreRead) {
   OgawaBytes knots;
   const std::vector<Part> clamped{
       knots.array(".knots", kFloat, 1, {raw<float>({0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4})})};
-  const UsdCurvesFile pinned = read_curves({7}, curve_form(0, 0, 2), clamped, {}, knots);
+  const CurvesFile pinned = read_curves({7}, curve_form(0, 0, 2), clamped, {}, knots);
   EXPECT_EQ(pinned.strands.basis, CurveBasis::kPinnedBSpline);
   ASSERT_EQ(pinned.warnings.size(), 1u);
   EXPECT_NE(pinned.warnings[0].find("approximated by uniform B-splines"), std::string::npos);
@@ -112,21 +106,21 @@ TEST(AlembicCurves, BSplinesWithThreefoldKnotsAreBezierCurves) {
   for (const auto& [counts, knots] :
        {std::pair(std::vector<int32_t>{4}, one), std::pair(std::vector<int32_t>{7}, two),
         std::pair(std::vector<int32_t>{4}, without_ends)}) {
-    const UsdCurvesFile file = read_knots(counts, knots, 2), bezier = read_knots(counts, {}, 1);
+    const CurvesFile file = read_knots(counts, knots, 2), bezier = read_knots(counts, {}, 1);
     EXPECT_EQ(file.warnings, std::vector<std::string>());
     EXPECT_EQ(file.strands.basis, bezier.strands.basis);
     EXPECT_EQ(file.strands.points, bezier.strands.points);
   }
-  const UsdCurvesFile plain = read_knots({4}, uniform, 2);
+  const CurvesFile plain = read_knots({4}, uniform, 2);
   EXPECT_EQ(plain.warnings, std::vector<std::string>());
   EXPECT_EQ(plain.strands.basis, CurveBasis::kBSpline);
   // The knots of the second curve count, too.
   std::vector<float> both = uniform;
   both.insert(both.end(), one.begin(), one.end());
-  const UsdCurvesFile mixed = read_knots({4, 4}, both, 2);
+  const CurvesFile mixed = read_knots({4, 4}, both, 2);
   EXPECT_EQ(mixed.strands.basis, CurveBasis::kPinnedBSpline);
   EXPECT_EQ(mixed.warnings.size(), 1u);
-  const UsdCurvesFile misfit = read_knots({4}, two, 2);
+  const CurvesFile misfit = read_knots({4}, two, 2);
   EXPECT_EQ(misfit.strands.basis, CurveBasis::kBSpline);
   ASSERT_EQ(misfit.warnings.size(), 1u);
   EXPECT_NE(misfit.warnings[0].find("knots that do not fit"), std::string::npos);
@@ -145,15 +139,15 @@ TEST(AlembicCurves, ScopesIndicesAndTypesOfParameters) {
       b.array("Cd", kFloat, 3, {raw<float>({1, 0, 0})}, "geoScope=con"),
       b.array("pair", kInt16, 1, {raw<int16_t>({1, 2, 3, 4})}, "geoScope=uni;arrayExtent=2"),
       b.array("name", kText, 1, {"text\0"}, "geoScope=con")};
-  const UsdCurvesFile file = read_curves({3, 2}, linear_form(), geometry, params, b);
+  const CurvesFile file = read_curves({3, 2}, linear_form(), geometry, params, b);
   EXPECT_EQ(file.warnings, std::vector<std::string>());
   const StrandArrays& a = file.strands;  // sorted by ids: the curve of two points is first
   EXPECT_EQ(a.first_point, (std::vector<uint32_t>{0, 2, 5}));
   EXPECT_EQ(a.points[3], 0.125f);
   EXPECT_EQ(a.points[4 * 4 + 3], 0.25f);
   EXPECT_EQ(a.root_uv, (std::vector<V2f>{{0, 0.5f}, {1, 0.25f}}));
-  EXPECT_EQ(attribute(a, "color").values, (std::vector<float>{1, 0, 0}));
-  EXPECT_EQ(attribute(a, "pair").values, (std::vector<float>{3, 4, 1, 2}));
+  EXPECT_EQ(attribute_of(a, "color").values, (std::vector<float>{1, 0, 0}));
+  EXPECT_EQ(attribute_of(a, "pair").values, (std::vector<float>{3, 4, 1, 2}));
   EXPECT_EQ(a.attributes.size(), 2u);
 }
 
@@ -162,7 +156,7 @@ TEST(AlembicCurves, UnusedParametersOfOtherSizesAreSkipped) {
   const std::vector<Part> params{
       b.array("seeds", kFloat, 1, {raw<float>({1, 2, 3, 4, 5, 6, 7})}, "geoScope=con"),
       b.array("mine", kFloat, 1, {raw<float>({1, 2})}, "geoScope=uni")};
-  const UsdCurvesFile file = read_curves({3, 3}, linear_form(), {}, params, b);
+  const CurvesFile file = read_curves({3, 3}, linear_form(), {}, params, b);
   ASSERT_EQ(file.strands.attributes.size(), 1u);
   EXPECT_EQ(file.strands.attributes[0].name, "mine");
   ASSERT_EQ(file.warnings.size(), 1u);
@@ -181,7 +175,7 @@ TEST(AlembicCurves, GuidesAreSkippedUnlessThereIsNothingElse) {
       strand{b.array("groom_guide", kInt16, 1, {raw<int16_t>({0})}, "geoScope=con"),
              b.array("groom_width", kFloat, 1, {raw<float>({0.5f})}, "geoScope=con")};
   const Part guides = b.curves("g", {5, 5}, linear_form(), {}, guide);
-  const UsdCurvesFile both = read(b.file({guides, b.curves("s", {3}, linear_form(), {}, strand)}));
+  const CurvesFile both = read(b.file({guides, b.curves("s", {3}, linear_form(), {}, strand)}));
   EXPECT_EQ(both.strands.ids.size(), 1u);
   EXPECT_TRUE(both.has_widths);
   EXPECT_EQ(both.strands.points[3], 0.25f);
@@ -209,9 +203,9 @@ TEST(AlembicCurves, TransformsVisibilityAndSamples) {
   const std::vector<double> values{10, 20, 30, 90, 2, 2, 2};
   const auto widths = [&] { return std::vector<Part>{b.array("width", kFloat, 1, {raw<float>({0.5f})})}; };
   const Part near = b.curves("near", {2}, linear_form(), widths());
-  const UsdCurvesFile file = read(b.file({transform("t", ops, values, {near})}));
+  const CurvesFile file = read(b.file({transform("t", ops, values, {near})}));
   EXPECT_EQ(file.warnings, std::vector<std::string>());
-  const auto last = [](const UsdCurvesFile& one) {
+  const auto last = [](const CurvesFile& one) {
     const float* p = &one.strands.points[one.strands.points.size() - 4];
     return V3f(p[0], p[1], p[2]);
   };
@@ -225,10 +219,10 @@ TEST(AlembicCurves, TransformsVisibilityAndSamples) {
   const std::string move{0x10};
   const Part own = transform("own", move, {1, 0, 0}, {b.curves("c", {2}, linear_form())}, false);
   EXPECT_LT((last(read(b.file({transform("t", ops, values, {own})}))) - V3f(2, 1, 0)).length(), 1e-5f);
-  // A hidden transform hides what is in it, except what is shown explicitly.
+  // A hidden transform hides its children, except those that state that they are visible.
   const Part shown = transform("shown", move, {5, 0, 0}, {b.curves("c", {3}, linear_form())}, true, 1);
   const Part hidden = b.curves("h", {2}, linear_form());
-  const UsdCurvesFile some = read(b.file({transform("t", move, {0, 0, 0}, {hidden, shown}, true, 0)}));
+  const CurvesFile some = read(b.file({transform("t", move, {0, 0, 0}, {hidden, shown}, true, 0)}));
   EXPECT_EQ(some.strands.ids.size(), 1u);
   ASSERT_EQ(some.warnings.size(), 1u);
   EXPECT_NE(some.warnings[0].find("hidden objects are skipped"), std::string::npos);
@@ -237,11 +231,32 @@ TEST(AlembicCurves, TransformsVisibilityAndSamples) {
       b.array("P", kFloat, 3, {raw<float>({1, 2, 3, 4, 5, 6}), raw<float>({0, 0, 0, 9, 9, 9})}),
       b.array("nVertices", kInt32, 1, {raw<int32_t>({2})}),
       b.scalar("curveBasisAndType", kUint8, 4, {linear_form()})};
-  const UsdCurvesFile first =
-      read(b.file({b.object("m", "AbcGeom_Curve_v2", {b.compound(".geom", moving)})}));
+  const CurvesFile first = read(b.file({b.object("m", "AbcGeom_Curve_v2", {b.compound(".geom", moving)})}));
   EXPECT_EQ(last(first), V3f(4, 5, 6));
   ASSERT_EQ(first.warnings.size(), 1u);
   EXPECT_NE(first.warnings[0].find("time samples after the first are skipped"), std::string::npos);
+}
+
+TEST(AlembicCurves, AFileMayBeCutWhileItIsOpen) {
+  OgawaBytes b;
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.abc";
+  write_file(path, b.file({b.curves("c", {5000}, linear_form())}));
+  const AlembicArchive archive(path);
+  const AlembicObject curves = archive.children(archive.top()).at(0);
+  const AlembicCompound properties = archive.properties(curves);
+  const AlembicCompound geometry = archive.compound(*properties.find(".geom"));
+  EXPECT_EQ(alembic_floats(archive, *geometry.find("P")).size(), 15'000u);
+  std::filesystem::resize_file(path, 1000);
+  try {
+    alembic_floats(archive, *geometry.find("P"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(error.what()).find("a.abc: became shorter while it was read (byte "),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -9,39 +9,19 @@
 #include "base/temporary_folder.h"
 #include "geom/alembic/alembic_curve_vertices.h"
 #include "geom/alembic/alembic_curves_file.h"
-#include "geom/alembic/alembic_strands.h"
 #include "geom/alembic/alembic_values.h"
 #include "geom/curve.h"
+#include "geom/io/alembic_strands.h"
 #include "geom/io/strand_file.h"
-#include "tests/geom/random_strands.h"
+#include "tests/geom/attributed_strands.h"
 
 namespace pelage::alembic_curves_writer_test {
 namespace {
 
-const StrandAttribute& attribute(const StrandArrays& a, const std::string& name) {
-  const auto found = std::find_if(a.attributes.begin(), a.attributes.end(),
-                                  [&](const StrandAttribute& one) { return one.name == name; });
-  EXPECT_NE(found, a.attributes.end()) << name;
-  static const StrandAttribute kNone;
-  return found == a.attributes.end() ? kNone : *found;
-}
-
 StrandArrays with_everything(CurveBasis basis) {
-  RandomStrandOptions options;
-  options.strands = 40;
-  options.min_points = basis == CurveBasis::kBSpline ? 4 : 2;
-  options.basis = basis;
-  StrandArrays a = random_strands(7, options).arrays();
-  const size_t points = a.points.size() / 4, strands = a.ids.size();
-  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}},
-      length{"length", AttributeClass::kPerStrand, 1, {}},
-      wide{"wide", AttributeClass::kPerStrand, 7, std::vector<float>(7 * strands, 0.25f)};
-  for (size_t i = 0; i < 3 * points; ++i) color.values.push_back(0.1f + 1e-3f * static_cast<float>(i));
-  for (size_t i = 0; i < strands; ++i) {
-    length.values.push_back(1.0f / static_cast<float>(i + 1));
-    a.root_uv.emplace_back(0.1f * static_cast<float>(i), 1 / 3.0f);
-  }
-  a.attributes = {color, length, wide, {"clump:size", AttributeClass::kConstant, 2, {1.5f, 1e-20f}}};
+  StrandArrays a = attributed_strands(basis);
+  a.attributes.push_back(
+      {"wide", AttributeClass::kPerStrand, 7, std::vector<float>(7 * a.ids.size(), 0.25f)});
   return a;
 }
 
@@ -54,7 +34,7 @@ TEST(AlembicCurvesWriter, RoundTripKeepsEverything) {
     const StrandArrays written = with_everything(basis);
     const std::filesystem::path path = folder.path() / "a.abc";
     write_strands(path, Strands(written));
-    const UsdCurvesFile file = read_alembic_curves(path);
+    const CurvesFile file = read_alembic_curves(path);
     EXPECT_TRUE(file.has_widths);
     EXPECT_EQ(file.warnings, std::vector<std::string>());
     EXPECT_EQ(file.strands.basis, basis);
@@ -64,9 +44,9 @@ TEST(AlembicCurvesWriter, RoundTripKeepsEverything) {
     EXPECT_EQ(file.strands.points, written.points);  // halving a width is exact
     EXPECT_EQ(file.strands.attributes.size(), written.attributes.size());
     for (const StrandAttribute& one : written.attributes) {
-      EXPECT_EQ(attribute(file.strands, one.name).frequency, one.frequency) << one.name;
-      EXPECT_EQ(attribute(file.strands, one.name).components, one.components) << one.name;
-      EXPECT_EQ(attribute(file.strands, one.name).values, one.values) << one.name;
+      EXPECT_EQ(attribute_of(file.strands, one.name).frequency, one.frequency) << one.name;
+      EXPECT_EQ(attribute_of(file.strands, one.name).components, one.components) << one.name;
+      EXPECT_EQ(attribute_of(file.strands, one.name).values, one.values) << one.name;
     }
     EXPECT_EQ(what_is_lost(path, Strands(written)), "");
   }
@@ -82,14 +62,14 @@ TEST(AlembicCurvesWriter, NamesOfTheSchemaAreLostOnlyIfTheFileHasThem) {
     written.attributes.push_back({name, AttributeClass::kPerStrand, 1, values});
   EXPECT_EQ(what_is_lost(path, Strands(written)), "");
   write_strands(path, Strands(written));
-  const UsdCurvesFile file = read_alembic_curves(path);
+  const CurvesFile file = read_alembic_curves(path);
   EXPECT_EQ(file.warnings, std::vector<std::string>());
   EXPECT_EQ(file.strands.ids, written.ids);
   EXPECT_EQ(file.strands.points, written.points);
   ASSERT_EQ(file.strands.attributes.size(), 6u);
   written.attributes.back().name = "a_b";
   for (const StrandAttribute& one : written.attributes)
-    EXPECT_EQ(attribute(file.strands, one.name).values, one.values) << one.name;
+    EXPECT_EQ(attribute_of(file.strands, one.name).values, one.values) << one.name;
   for (const char* name : {"groom_id", "groom_root_uv", "groom_group_name", "a/b"})
     written.attributes.push_back({name, AttributeClass::kPerStrand, 1, values});
   EXPECT_EQ(what_is_lost(path, Strands(written)),
@@ -107,10 +87,10 @@ TEST(AlembicCurvesWriter, GuidesAmongStrandsStayMarked) {
   guide[3] = 1, guide[4] = 1e9f, guide[5] = NAN;
   written.attributes = {{"guide", AttributeClass::kPerStrand, 1, guide}};
   write_strands(folder.path() / "a.abc", Strands(written));
-  const UsdCurvesFile file = read_alembic_curves(folder.path() / "a.abc");
+  const CurvesFile file = read_alembic_curves(folder.path() / "a.abc");
   guide[4] = guide[5] = 1;
-  EXPECT_EQ(attribute(file.strands, "guide").values, guide);
-  EXPECT_EQ(attribute(file.strands, "guide").frequency, AttributeClass::kPerStrand);
+  EXPECT_EQ(attribute_of(file.strands, "guide").values, guide);
+  EXPECT_EQ(attribute_of(file.strands, "guide").frequency, AttributeClass::kPerStrand);
 }
 
 TEST(AlembicCurvesWriter, StrandsThatMoveAreWrittenAtTheirFirstKey) {
@@ -182,7 +162,7 @@ TEST(AlembicCurvesWriter, StrandsForUnrealAreOnTheCurves) {
 
 std::string text_of(const AlembicArchive& archive, const AlembicProperty& property) {
   EXPECT_EQ(property.pod, AlembicPod::kText);
-  const std::span<const std::byte> bytes = archive.sample(property);
+  const std::span<const std::byte> bytes = archive.file().keep(archive.sample(property));
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   return text.substr(0, text.find('\0'));
 }
@@ -225,10 +205,10 @@ TEST(AlembicCurvesWriter, UnrealsSchemaIsComplete) {
   EXPECT_EQ(params.find("groom_guide")->pod, AlembicPod::kInt16);
   EXPECT_EQ(alembic_count(archive, *params.find("groom_color")),
             3 * alembic_count(archive, *params.find("groom_width")));
-  const UsdCurvesFile file = read_alembic_curves(path);
+  const CurvesFile file = read_alembic_curves(path);
   EXPECT_EQ(file.strands.basis, CurveBasis::kLinear);
   EXPECT_EQ(file.strands.ids, written.ids);
-  EXPECT_EQ(attribute(file.strands, "color").values[3], tint[0]);
+  EXPECT_EQ(attribute_of(file.strands, "color").values[3], tint[0]);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "geom/alembic/alembic_curves_file.h"
-#include "geom/alembic/alembic_strands.h"
 #include "geom/alembic/alembic_validation.h"
+#include "geom/io/alembic_strands.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/geom/random_strands.h"
 #include "tests/support/allocation_meter.h"
@@ -154,7 +154,7 @@ constexpr const char* kHandMade =
 
 TEST_F(AlembicLimits, AFileMadeByHandIsRead) {
   const std::string file = from_hex(kHandMade);
-  const UsdCurvesFile read = read_alembic_curves(put(file));
+  const CurvesFile read = read_alembic_curves(put(file));
   EXPECT_EQ(read.strands.first_point, (std::vector<uint32_t>{0, 0, 2}));  // one point makes no curve
   EXPECT_EQ(read.strands.points, (std::vector<float>{0, 1, 0, 0, 2, 0, 0, 0}));
   // Cut anywhere, it is refused with one line.
@@ -274,7 +274,7 @@ TEST_F(AlembicLimits, ValidationReadsSharedNumbersAFewTimes) {
   std::vector<Part> objects;
   for (int i = 0; i < 300; ++i)
     objects.push_back(b.object("c", "AbcGeom_Curve_v2", {b.compound(".geom", {points, counts, form})}));
-  const UsdFindings found = validate_alembic(put(b.file(objects)));
+  const ValidationReport found = validate_alembic(put(b.file(objects)));
   EXPECT_EQ(found.curves, 300u);
   EXPECT_LT(found.points, 3'000'000u);
   EXPECT_NE(found.remarks.back().find("are not checked"), std::string::npos);
@@ -342,7 +342,7 @@ TEST_F(AlembicLimits, TheLimitOfMemoryHoldsForAllThatIsTaken) {
 
 TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
   const auto findings = [&](const std::string& bytes) {
-    const UsdFindings found = validate_alembic(put(bytes));
+    const ValidationReport found = validate_alembic(put(bytes));
     std::string all;
     for (const std::string& line : found.problems) all += line + "\n";
     for (const std::string& line : found.remarks) all += line + "\n";
@@ -379,7 +379,7 @@ TEST_F(AlembicLimits, ValidationFindsWhatProgramsStumbleOver) {
   strands.root_uv.resize(strands.ids.size());
   write_alembic_strands(good, Strands(strands), {});
   EXPECT_EQ(findings(read_file(good)), "");
-  const UsdFindings counted = validate_alembic(good);  // of which "good" has phantoms
+  const ValidationReport counted = validate_alembic(good);  // of which "good" has phantoms
   EXPECT_EQ(counted.points, strands.points.size() / 4);
 }
 

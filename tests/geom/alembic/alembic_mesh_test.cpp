@@ -5,8 +5,9 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "geom/alembic/alembic_mesh_file.h"
+#include "geom/interchange/mesh_joiner.h"
 #include "geom/io/mesh_file.h"
-#include "geom/io/mesh_joiner.h"
+#include "geom/usd/usd_mesh_file.h"
 #include "tests/geom/alembic/ogawa_bytes.h"
 #include "tests/support/allocation_meter.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using namespace ogawa_bytes;
 
-UsdMeshFile read(const std::string& bytes, const UsdMeshReserve& reserve = {}) {
+MeshFile read(const std::string& bytes, const MeshReserve& reserve = {}) {
   const TemporaryFolder folder;
   write_file(folder.path() / "a.abc", bytes);
   return read_alembic_mesh(folder.path() / "a.abc", reserve);
@@ -62,11 +63,11 @@ TEST(AlembicMesh, SubdivisionMeshesAreThoseOfUsd) {
                             {b.compound(".faceset", {b.array(".faces", kInt32, 1, {raw<int32_t>({1})})})});
   const Part mesh = b.object("m", "AbcGeom_SubD_v1", {b.compound(".geom", geometry)}, {set});
   std::vector<int64_t> charges;
-  const UsdMeshFile file = read(b.file({mesh}), [&](int64_t bytes) { charges.push_back(bytes); });
+  const MeshFile file = read(b.file({mesh}), [&](int64_t bytes) { charges.push_back(bytes); });
   EXPECT_EQ(file.warnings, std::vector<std::string>());
   ASSERT_EQ(charges.size(), 1u);
   EXPECT_GE(charges[0], static_cast<int64_t>(file.mesh.bytes()));
-  const UsdMeshFile usd = read_usd_mesh("a.usda", R"(#usda 1.0
+  const MeshFile usd = read_usd_mesh({"a.usda", R"(#usda 1.0
 def Mesh "m" {
   uniform token orientation = "leftHanded"
   uniform token interpolateBoundary = "edgeOnly"
@@ -83,7 +84,7 @@ def Mesh "m" {
   int[] primvars:st:indices = [0, 1, 2, 3, 3, 2, 1]
   color3f[] primvars:displayColor = [(0,0,0),(0,0,0),(1,0.5,0),(0,0,0),(0,0,0)] (interpolation = "vertex")
   def GeomSubset "ear" { int[] indices = [1] }
-})");
+})"});
   const ControlMesh &a = file.mesh, &c = usd.mesh;
   EXPECT_EQ(a.positions, c.positions);
   EXPECT_EQ(a.face_sizes, c.face_sizes);
@@ -187,7 +188,7 @@ TEST(AlembicMesh, MemoryIsReservedBeforeItIsTaken) {
     reset_peak();
     const size_t before = live_bytes();
     int64_t reserved = 0;
-    const UsdMeshFile file = read_alembic_mesh(folder.path() / "a.abc", [&](int64_t bytes) {
+    const MeshFile file = read_alembic_mesh(folder.path() / "a.abc", [&](int64_t bytes) {
       // What is held now was reserved before; 64 KiB: paths and headers.
       const size_t taken = reserved > 0 ? peak_bytes() - before : 0;
       EXPECT_LE(taken, static_cast<size_t>(reserved) + (1 << 16));
@@ -203,8 +204,7 @@ TEST(AlembicMesh, ColoursOfAnotherSizeAreSkipped) {
   std::vector<Part> geometry = faces(b);
   geometry.push_back(b.compound(".arbGeomParams",
                                 {b.array("Cd", kFloat, 3, {raw(std::vector<float>(9, 1))}, "geoScope=vtx")}));
-  const UsdMeshFile file =
-      read(b.file({b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)})}));
+  const MeshFile file = read(b.file({b.object("m", "AbcGeom_PolyMesh_v1", {b.compound(".geom", geometry)})}));
   EXPECT_TRUE(file.mesh.colors.empty());
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_NE(file.warnings[0].find("'Cd' has 3 values"), std::string::npos);

@@ -9,12 +9,12 @@
 #include "geom/io/strand_file.h"
 #include "geom/usd/usd_curves_file.h"
 #include "geom/usd/usd_curves_writer.h"
-#include "tests/geom/random_strands.h"
+#include "tests/geom/attributed_strands.h"
 
 namespace pelage::usd_curves_test {
 namespace {
 
-UsdCurvesFile read(const std::string& text) { return read_usd_curves("a.usda", "#usda 1.0\n" + text); }
+CurvesFile read(const std::string& text) { return read_usd_curves({"a.usda", "#usda 1.0\n" + text}); }
 
 /// The message of the error that reading a text throws.
 std::string refusal(const std::string& text) {
@@ -36,24 +36,6 @@ std::string zigzag(const std::string& type, const std::string& basis, const std:
       "def BasisCurves \"c\" {{\n uniform token type = \"{}\"\n uniform token basis = \"{}\"\n uniform token "
       "wrap = \"{}\"\n int[] curveVertexCounts = [{}]\n point3f[] points = [{}]\n{}\n}}\n",
       type, basis, wrap, n, points, more);
-}
-
-StrandArrays with_everything(CurveBasis basis) {
-  RandomStrandOptions options;
-  options.strands = 40;
-  options.min_points = basis == CurveBasis::kBSpline ? 4 : 2;
-  options.basis = basis;
-  StrandArrays a = random_strands(7, options).arrays();
-  const size_t points = a.points.size() / 4, strands = a.ids.size();
-  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}},
-      length{"length", AttributeClass::kPerStrand, 1, {}};
-  for (size_t i = 0; i < 3 * points; ++i) color.values.push_back(0.1f + 1e-3f * static_cast<float>(i));
-  for (size_t i = 0; i < strands; ++i) {
-    length.values.push_back(1.0f / static_cast<float>(i + 1));
-    a.root_uv.emplace_back(0.1f * static_cast<float>(i), 1 / 3.0f);
-  }
-  a.attributes = {color, length, {"clump:size", AttributeClass::kConstant, 2, {1.5f, 1e-20f}}};
-  return a;
 }
 
 void expect_equal(const StrandArrays& read, const StrandArrays& written) {
@@ -80,10 +62,10 @@ TEST(UsdCurves, RoundTripKeepsEverything) {
   const TemporaryFolder folder;
   for (const CurveBasis basis :
        {CurveBasis::kPinnedBSpline, CurveBasis::kBSpline, CurveBasis::kLinear, CurveBasis::kCatmullRom}) {
-    const StrandArrays written = with_everything(basis);
+    const StrandArrays written = attributed_strands(basis);
     const std::filesystem::path path = folder.path() / "a.usda";
     write_strands(path, Strands(written));
-    const UsdCurvesFile file = read_usd_curves(path);
+    const CurvesFile file = read_usd_curves(path);
     EXPECT_TRUE(file.has_widths);
     EXPECT_TRUE(file.warnings.empty());
     expect_equal(file.strands, written);
@@ -121,7 +103,7 @@ TEST(UsdCurves, PlainCurvesHaveTheValuesOfTransformedOnes) {
 
 TEST(UsdCurves, StrandsAreSortedByTheirIds) {
   const TemporaryFolder folder;
-  StrandArrays written = with_everything(CurveBasis::kPinnedBSpline);
+  StrandArrays written = attributed_strands(CurveBasis::kPinnedBSpline);
   const StrandArrays sorted = written;
   // The same strands in reverse, with their ids.
   UsdCurvesFacts facts;
@@ -134,7 +116,7 @@ TEST(UsdCurves, StrandsAreSortedByTheirIds) {
     write_usd_curves(usd, fmt::format("s{}", s), facts, 1, [&](size_t) { return UsdCurvesSample{one, {}}; });
   }
   usd.commit();
-  UsdCurvesFile file = read_usd_curves(path);
+  CurvesFile file = read_usd_curves(path);
   // What is constant in each of several prims may differ between them.
   for (StrandAttribute& attribute : file.strands.attributes) {
     if (attribute.name != "clump:size") continue;
@@ -163,8 +145,8 @@ double distance_to(const StrandArrays& arrays, const std::function<V3f(float t)>
 }
 
 TEST(UsdCurves, BezierCurvesAreResampled) {
-  const UsdCurvesFile file = read(zigzag("cubic", "bezier", "nonperiodic", 4,
-                                         " float[] widths = [0.1, 0.2] (interpolation = \"varying\")"));
+  const CurvesFile file = read(zigzag("cubic", "bezier", "nonperiodic", 4,
+                                      " float[] widths = [0.1, 0.2] (interpolation = \"varying\")"));
   EXPECT_EQ(file.strands.basis, CurveBasis::kCatmullRom);
   ASSERT_EQ(file.strands.points.size(), 28u);
   EXPECT_FLOAT_EQ(file.strands.points[3], 0.05f);
@@ -192,15 +174,15 @@ TEST(UsdCurves, PeriodicCurvesAreClosed) {
 TEST(UsdCurves, OtherFormsAreResampledAlike) {
   for (const char* basis : {"bspline", "catmullRom", "bezier"}) {
     for (const char* wrap : {"nonperiodic", "pinned", "periodic"}) {
-      const UsdCurvesFile file = read(zigzag("cubic", basis, wrap, 7));
+      const CurvesFile file = read(zigzag("cubic", basis, wrap, 7));
       ASSERT_GT(file.strands.points.size(), 0u) << basis << wrap;
       for (const float x : file.strands.points) EXPECT_TRUE(std::isfinite(x));
     }
   }
   // Two prims of different bases share the basis of resampled curves, which go through the ends of pinned
   // ones.
-  const UsdCurvesFile both = read("def \"a\" {" + zigzag("cubic", "bspline", "pinned", 5) + "}\ndef \"b\" {" +
-                                  zigzag("linear", "bezier", "nonperiodic", 2) + "}");
+  const CurvesFile both = read("def \"a\" {" + zigzag("cubic", "bspline", "pinned", 5) + "}\ndef \"b\" {" +
+                               zigzag("linear", "bezier", "nonperiodic", 2) + "}");
   EXPECT_EQ(both.strands.basis, CurveBasis::kCatmullRom);
   ASSERT_EQ(both.strands.first_point, (std::vector<uint32_t>{0, 25, 32}));
   EXPECT_FLOAT_EQ(both.strands.points[4 * 24], 4);
@@ -259,7 +241,7 @@ TEST(UsdCurves, MotionKeysBecomeTimeSamples) {
   const std::string text = read_file(path);
   EXPECT_NE(text.find("points.timeSamples"), std::string::npos);
   EXPECT_NE(text.find("extent.timeSamples"), std::string::npos);
-  const UsdCurvesFile file = read_usd_curves(path);
+  const CurvesFile file = read_usd_curves(path);
   EXPECT_EQ(file.strands.points.size(), random_strands(3, options).points(0).size());
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_NE(file.warnings[0].find("time samples after the first are skipped"), std::string::npos);
@@ -288,9 +270,9 @@ TEST(UsdCurves, RefusesWhatDoesNotFit) {
 
 TEST(UsdCurves, RespectsTheMemoryLimit) {
   const std::string text = "#usda 1.0\n" + zigzag("linear", "bezier", "nonperiodic", 1000);
-  EXPECT_NO_THROW(read_usd_curves("a.usda", text, {300'000}));
+  EXPECT_NO_THROW(read_usd_curves({"a.usda", text}, {300'000}));
   try {
-    read_usd_curves("a.usda", text, {10'000});
+    read_usd_curves({"a.usda", text}, {10'000});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);

@@ -125,9 +125,9 @@ TEST_F(UsdFiles, MirroredAndLeftHandedFacesAreTurned) {
 }
 
 TEST_F(UsdFiles, SkipsTheRestWithOneWarningPerKind) {
-  const UsdMeshFile file =
-      read_usd_mesh("a.usda", "#usda 1.0\ndef Cube \"a\" {}\ndef Cube \"b\" {}\ndef Mesh \"m\" {" +
-                                  std::string(kTriangle) + "}\ndef PointInstancer \"p\" {}\n");
+  const MeshFile file =
+      read_usd_mesh({"a.usda", "#usda 1.0\ndef Cube \"a\" {}\ndef Cube \"b\" {}\ndef Mesh \"m\" {" +
+                                   std::string(kTriangle) + "}\ndef PointInstancer \"p\" {}\n"});
   EXPECT_EQ(file.warnings, (std::vector<std::string>{"a.usda:2:10: Cube prims are skipped (2 times)",
                                                      "a.usda:9:20: PointInstancer prims are skipped"}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/io/mesh_joiner.h"
+#include "geom/interchange/mesh_joiner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ void MeshJoiner::add_uv(const MeshPart& part) {
     if (!mesh_.uv.empty()) mesh_.face_uv.resize(mesh_.face_vertices.size());
     return;
   }
-  const UsdPrimvar& uv = *part.uv;
+  const Primvar& uv = *part.uv;
   if (mesh_.uv.empty()) mesh_.uv.push_back(V2f(0));  // of faces without coordinates
   mesh_.face_uv.resize(first_corner_);
   const auto first = static_cast<uint32_t>(mesh_.uv.size());

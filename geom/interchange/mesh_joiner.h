@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "geom/interchange/primvar.h"
 #include "geom/mesh.h"
-#include "geom/usd/usd_primvar.h"
 
 namespace pelage {
 
@@ -21,14 +21,15 @@ struct MeshPart {
   std::vector<uint32_t> holes, corners, crease_vertices, crease_lengths;
   std::vector<float> corner_sharpness;  ///< one per corner
   std::vector<float> crease_sharpness;  ///< one per crease or one per edge of creases
-  std::optional<UsdPrimvar> uv;         ///< with 2 components
-  std::optional<UsdPrimvar> colors;     ///< of vertices
+  std::optional<Primvar> uv;            ///< with 2 components
+  std::optional<Primvar> colors;        ///< of vertices
   bool reversed = false;                ///< whether the corners of faces are clockwise, seen from outside
 
-  UsdPrimvarCounts counts() const {
+  PrimvarCounts counts() const {
     return {face_sizes.size(), points.size(), points.size(), face_vertices.size()};
   }
-  /// Returns what is wrong with the indices and sizes; empty if nothing is.
+  /// Checks that all points are finite and that sizes and indices fit each other. Returns a message about the
+  /// first mistake, or an empty text.
   std::string problem() const;
 };
 
@@ -40,12 +41,12 @@ class MeshJoiner {
   MeshJoiner(ControlMesh& mesh, std::filesystem::path path, size_t max_corners = kMaxCorners)
       : mesh_(mesh), path_(std::move(path)), max_corners_(max_corners) {}
 
-  /// Adds a mesh without a problem(). Throws Error (kInput) with the file and the mesh if the cage gets more
-  /// than `max_corners` corners of faces, or 2^32 - 1 points.
+  /// Adds a mesh, whose problem() must be empty. Throws Error (kInput) with the file and the mesh if the cage
+  /// gets more than `max_corners` corners of faces, or 2^32 - 1 points.
   void add(const MeshPart& part);
-  /// Makes faces of the mesh that was added last a group of this name. The faces must exist.
+  /// Puts faces of the last added mesh into the group of this name. The faces must exist.
   void add_group(const std::string& name, const std::vector<uint32_t>& faces);
-  /// Completes arrays for which only some meshes have values. To be called once, after all add().
+  /// Fills the arrays for which only some meshes have values. Call it once, after the last add().
   void finish();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/usd/usd_warnings.h"
+#include "geom/interchange/read_warnings.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr size_t kMaxWarningKinds = 50;
 }
 
-void UsdWarnings::add(const std::string& kind, const SourcePosition& place) {
+void ReadWarnings::add(const std::string& kind, const SourcePosition& place) {
   for (Case& known : cases_) {
     if (known.kind != kind || known.place.file != place.file) continue;
     ++known.count;
@@ -20,7 +20,7 @@ void UsdWarnings::add(const std::string& kind, const SourcePosition& place) {
   if (cases_.size() < kMaxWarningKinds) cases_.push_back({kind, place, 1});
 }
 
-std::vector<std::string> UsdWarnings::lines() const {
+std::vector<std::string> ReadWarnings::lines() const {
   std::vector<std::string> lines;
   for (const Case& one : cases_) {
     lines.push_back(visible(to_string(one.place) + ": " + one.kind));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geom/usd/usd_curve_batch.h"
+#include "geom/interchange/curve_batch.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <numeric>
 
 #include "base/error.h"
@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-AttributeClass frequency_of(const UsdPrimvar& primvar) {
+AttributeClass frequency_of(const Primvar& primvar) {
   if (primvar.interpolation == "constant") return AttributeClass::kConstant;
   if (primvar.interpolation == "uniform") return AttributeClass::kPerStrand;
   return AttributeClass::kPerPoint;
@@ -22,7 +22,7 @@ struct CurvePlace {
 };
 
 /// Writes the value of a primvar at a point of a curve.
-void value_at(const UsdPrimvar& primvar, const CurvePlace& place, const UsdCurvePoint& point, float* out) {
+void value_at(const Primvar& primvar, const CurvePlace& place, const CurvePoint& point, float* out) {
   const size_t n = primvar.components;
   const auto element = [&](size_t index) { return &primvar.values[index * n]; };
   if (primvar.interpolation == "constant" || primvar.interpolation == "uniform") {
@@ -42,19 +42,12 @@ void value_at(const UsdPrimvar& primvar, const CurvePlace& place, const UsdCurve
   }
 }
 
-size_t batch_bytes(const UsdCurveBatch& batch) {
-  size_t numbers = batch.counts.size() + batch.points.size() + batch.widths.values.size() +
-                   batch.root_uv.values.size() + 2 * batch.ids.size();
-  for (const auto& [name, primvar] : batch.attributes) numbers += primvar.values.size();
-  return numbers * sizeof(float);
-}
-
 class CurveJoiner {
  public:
-  explicit CurveJoiner(std::vector<UsdCurveBatch> batches) : batches_(std::move(batches)) {
+  explicit CurveJoiner(std::vector<CurveBatch> batches) : batches_(std::move(batches)) {
     constexpr CurveBasis kNone = CurveBasis::kBezier;  // which strands never have
     const CurveBasis common = batches_.front().form.native().value_or(kNone);
-    for (const UsdCurveBatch& batch : batches_) {
+    for (const CurveBatch& batch : batches_) {
       resample_ |= common == kNone || batch.form.native().value_or(kNone) != common;
       has_uv_ |= !batch.root_uv.values.empty();
       for (const auto& [name, primvar] : batch.attributes) declare(name, primvar);
@@ -75,8 +68,8 @@ class CurveJoiner {
       attributes += values;
       largest = std::max(largest, values);
     }
-    for (const UsdCurveBatch& batch : batches_) batches += batch_bytes(batch);
-    const size_t one_curve = 2 * size.longest * sizeof(UsdCurvePoint);  // a vector that grew
+    for (const CurveBatch& batch : batches_) batches += batch.bytes();
+    const size_t one_curve = 2 * size.longest * sizeof(CurvePoint);  // a vector that grew
     const size_t sorted = points + largest + 2 * strands;
     return static_cast<int64_t>(points + strands + attributes +
                                 std::max(one_curve, sorted > batches ? sorted - batches : 0));
@@ -84,7 +77,7 @@ class CurveJoiner {
 
   StrandArrays join() {
     reserve();
-    for (UsdCurveBatch& batch : batches_) {
+    for (CurveBatch& batch : batches_) {
       add(batch);
       batch = {};
     }
@@ -101,7 +94,7 @@ class CurveJoiner {
     return nullptr;
   }
 
-  void declare(const std::string& name, const UsdPrimvar& primvar) {
+  void declare(const std::string& name, const Primvar& primvar) {
     const auto components = static_cast<int>(primvar.components);
     // Constant values of several prims may differ.
     const AttributeClass frequency = std::max(
@@ -126,7 +119,7 @@ class CurveJoiner {
   };
   JoinedSize joined_size() const {
     JoinedSize size;
-    for (const UsdCurveBatch& batch : batches_) {
+    for (const CurveBatch& batch : batches_) {
       for (const uint32_t n : batch.counts) {
         const uint32_t points = batch.form.points(n, resample_);
         size.points += points;
@@ -143,16 +136,16 @@ class CurveJoiner {
     arrays_.first_point.reserve(size.strands + 1);
     arrays_.ids.reserve(size.strands);
     if (has_uv_) arrays_.root_uv.reserve(size.strands);
-    const auto with_ids = [](const UsdCurveBatch& batch) { return !batch.ids.empty(); };
+    const auto with_ids = [](const CurveBatch& batch) { return !batch.ids.empty(); };
     if (std::any_of(batches_.begin(), batches_.end(), with_ids)) ids_.reserve(size.strands);
     for (StrandAttribute& attribute : arrays_.attributes) attribute.values.reserve(size.numbers(attribute));
   }
 
-  void add(const UsdCurveBatch& batch) {
+  void add(const CurveBatch& batch) {
     CurvePlace place;
-    std::vector<UsdCurvePoint> points;
+    std::vector<CurvePoint> points;
     const bool plain = is_plain(batch);
-    const std::vector<const UsdPrimvar*> sources = sources_of(batch);
+    const std::vector<const Primvar*> sources = sources_of(batch);
     for (const uint32_t n : batch.counts) {
       const uint32_t count = batch.form.points(n, resample_);
       if (arrays_.first_point.back() > UINT32_MAX - count)
@@ -163,7 +156,7 @@ class CurveJoiner {
       } else {
         points.clear();
         points.reserve(count);
-        for (uint32_t i = 0; i < count; ++i) points.push_back(usd_curve_point(batch.form, n, i, resample_));
+        for (uint32_t i = 0; i < count; ++i) points.push_back(curve_point(batch.form, n, i, resample_));
         add_points(batch, place, points);
         add_attributes(sources, place, points);
       }
@@ -177,15 +170,15 @@ class CurveJoiner {
   }
 
   /// Whether points are vertices, and all values of points those of vertices: most curves of large files.
-  bool is_plain(const UsdCurveBatch& batch) const {
+  bool is_plain(const CurveBatch& batch) const {
     // Other curves than B-splines without phantom vertices have a varying value at each vertex, too.
     const bool varying = batch.form.native() != CurveBasis::kBSpline;
-    const auto per_vertex = [&](const UsdPrimvar& values) {
+    const auto per_vertex = [&](const Primvar& values) {
       return values.interpolation == "vertex" || values.values.empty() ||
              (varying && values.interpolation != "constant" && values.interpolation != "uniform");
     };
     const bool vertex_widths = batch.widths.values.empty() || batch.widths.interpolation == "vertex";
-    return !resample_ && batch.form.wrap != UsdCurveForm::Wrap::kPeriodic && vertex_widths &&
+    return !resample_ && batch.form.wrap != CurveForm::Wrap::kPeriodic && vertex_widths &&
            batch.to_world == M44f() &&
            std::all_of(batch.attributes.begin(), batch.attributes.end(), [&](const auto& attribute) {
              return per_vertex(attribute.second) ||
@@ -194,8 +187,8 @@ class CurveJoiner {
   }
 
   /// The values in a batch of each attribute of the result; null where it has none.
-  std::vector<const UsdPrimvar*> sources_of(const UsdCurveBatch& batch) const {
-    std::vector<const UsdPrimvar*> sources;
+  std::vector<const Primvar*> sources_of(const CurveBatch& batch) const {
+    std::vector<const Primvar*> sources;
     for (const StrandAttribute& to : arrays_.attributes) {
       sources.push_back(nullptr);
       for (const auto& [name, primvar] : batch.attributes) {
@@ -206,12 +199,12 @@ class CurveJoiner {
   }
 
   /// Adds the values of a curve whose points are its vertices.
-  void add_plain_attributes(const std::vector<const UsdPrimvar*>& sources, const CurvePlace& place,
+  void add_plain_attributes(const std::vector<const Primvar*>& sources, const CurvePlace& place,
                             uint32_t count) {
     for (size_t i = 0; i < sources.size(); ++i) {
       StrandAttribute& to = arrays_.attributes[i];
       if (to.frequency == AttributeClass::kConstant && !to.values.empty()) continue;
-      const UsdPrimvar* from = sources[i];
+      const Primvar* from = sources[i];
       const auto components = static_cast<size_t>(to.components);
       const size_t rows = to.frequency == AttributeClass::kPerPoint ? count : 1, before = to.values.size();
       to.values.resize(before + rows * components);
@@ -228,7 +221,7 @@ class CurveJoiner {
     }
   }
 
-  void add_plain(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t count) {
+  void add_plain(const CurveBatch& batch, const CurvePlace& place, uint32_t count) {
     const size_t first = arrays_.points.size();
     arrays_.points.resize(first + 4 * size_t{count});
     for (size_t i = 0; i < count; ++i) {
@@ -238,10 +231,9 @@ class CurveJoiner {
     }
   }
 
-  void add_points(const UsdCurveBatch& batch, const CurvePlace& place,
-                  const std::vector<UsdCurvePoint>& points) {
+  void add_points(const CurveBatch& batch, const CurvePlace& place, const std::vector<CurvePoint>& points) {
     const bool still = batch.to_world == M44f();
-    for (const UsdCurvePoint& point : points) {
+    for (const CurvePoint& point : points) {
       V3f p(0);
       if (point.weight[0] == 1) {
         std::copy_n(&batch.points[3 * (place.first_vertex + point.vertex[0])], 3, &p.x);
@@ -259,12 +251,12 @@ class CurveJoiner {
     }
   }
 
-  void add_attributes(const std::vector<const UsdPrimvar*>& sources, const CurvePlace& place,
-                      const std::vector<UsdCurvePoint>& points) {
+  void add_attributes(const std::vector<const Primvar*>& sources, const CurvePlace& place,
+                      const std::vector<CurvePoint>& points) {
     std::vector<float> value;
     for (size_t index = 0; index < sources.size(); ++index) {
       StrandAttribute& to = arrays_.attributes[index];
-      const UsdPrimvar* from = sources[index];
+      const Primvar* from = sources[index];
       const bool once = to.frequency == AttributeClass::kConstant;
       if (once && !to.values.empty()) continue;
       const size_t count = to.frequency == AttributeClass::kPerPoint ? points.size() : 1;
@@ -272,18 +264,18 @@ class CurveJoiner {
       for (size_t i = 0; i < count; ++i) {
         value.assign(std::max(components, from ? from->components : 0), 0.0f);
         // Curves without points still have uniform values.
-        if (from) value_at(*from, place, points.empty() ? UsdCurvePoint() : points[i], value.data());
+        if (from) value_at(*from, place, points.empty() ? CurvePoint() : points[i], value.data());
         to.values.insert(to.values.end(), value.begin(), value.begin() + static_cast<ptrdiff_t>(components));
       }
     }
   }
 
-  void add_uv(const UsdCurveBatch& batch, const CurvePlace& place, uint32_t n) {
+  void add_uv(const CurveBatch& batch, const CurvePlace& place, uint32_t n) {
     float uv[2] = {0, 0};
     const bool has_root = batch.form.segments(n) > 0;
     if (!batch.root_uv.values.empty() &&
         (has_root || frequency_of(batch.root_uv) != AttributeClass::kPerPoint))
-      value_at(batch.root_uv, place, UsdCurvePoint(), uv);
+      value_at(batch.root_uv, place, CurvePoint(), uv);
     arrays_.root_uv.emplace_back(uv[0], uv[1]);
   }
 
@@ -327,7 +319,7 @@ class CurveJoiner {
     attribute.values = std::move(values);
   }
 
-  std::vector<UsdCurveBatch> batches_;
+  std::vector<CurveBatch> batches_;
   StrandArrays arrays_;
   std::vector<uint64_t> ids_;
   bool resample_ = false, has_uv_ = false;
@@ -335,24 +327,33 @@ class CurveJoiner {
 
 }  // namespace
 
-StrandArrays join_usd_curves(std::vector<UsdCurveBatch> batches,
-                             const std::function<void(int64_t bytes)>& charge) {
-  CurveJoiner joiner(std::move(batches));
-  if (charge) charge(joiner.bytes());
-  return joiner.join();
+void CurveBatch::set_widths(Primvar stated) {
+  // Widths have no direction, so they scale by the cube root of the factor of volumes.
+  const float factor = 0.5f * std::cbrt(std::abs(to_world.determinant()));
+  for (float& width : stated.values) width *= factor;
+  widths = std::move(stated);
 }
 
-int64_t joined_attribute_bytes(const std::vector<UsdCurveBatch>& batches) {
-  std::map<std::string, size_t> components;
-  size_t points = 0;
-  for (const UsdCurveBatch& batch : batches) {
-    points += batch.points.size() / 3 + batch.counts.size();
-    for (const auto& [name, primvar] : batch.attributes)
-      components[name] = std::max(components[name], primvar.components);
-  }
-  size_t floats = 0;
-  for (const auto& [name, count] : components) floats += count * points;
-  return static_cast<int64_t>(floats * sizeof(float));
+size_t CurveBatch::bytes() const {
+  size_t numbers = counts.capacity() + points.capacity() + widths.values.capacity() +
+                   root_uv.values.capacity() + 2 * ids.capacity();
+  for (const auto& [name, primvar] : attributes) numbers += primvar.values.capacity();
+  return numbers * sizeof(float);
+}
+
+CurvesFile join_curves(std::vector<CurveBatch> batches, const SourcePosition& file, ReadBudget& budget,
+                       ReadWarnings& warnings) {
+  CurvesFile result;
+  const auto with_widths = std::count_if(batches.begin(), batches.end(),
+                                         [](const CurveBatch& b) { return !b.widths.values.empty(); });
+  if (with_widths > 0 && with_widths < static_cast<ptrdiff_t>(batches.size()))
+    warnings.add("some curves have no widths; they get the default", file);
+  result.has_widths = with_widths > 0;
+  CurveJoiner joiner(std::move(batches));
+  budget.charge(joiner.bytes(), file);
+  result.strands = joiner.join();
+  result.warnings = warnings.lines();
+  return result;
 }
 
 }  // namespace pelage

@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// Collects what a reader of USD skips: one warning per kind and file, with the place of the first case and
-/// the count of all.
-class UsdWarnings {
+/// Collects the warnings of a reader about what it skips or approximates: one warning per kind and file, with
+/// the place of the first case and the number of cases.
+class ReadWarnings {
  public:
   void add(const std::string& kind, const SourcePosition& place);
   /// Returns one line per kind and file, in the order in which they were added: "file:3:5: PointInstancer
