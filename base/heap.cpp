@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/heap.h"
 
+#include <algorithm>
+
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -19,6 +21,17 @@ void keep_heap_small() {
   mallopt(M_MMAP_THRESHOLD, static_cast<int>(kHeapPages));
   // Linux allows 65,530 mappings per process; half of them are left for others.
   mallopt(M_MMAP_MAX, 30000);
+#endif
+}
+
+void keep_spare_heap(size_t limit, int threads) {
+#if defined(__GLIBC__)
+  constexpr size_t kMost = size_t{16} << 20, kLeast = size_t{128} << 10;  // the least is the library's default
+  // The main thread has a heap, too.
+  const size_t share = limit == 0 ? kMost : limit / 40 / static_cast<size_t>(threads + 1);
+  mallopt(M_TOP_PAD, static_cast<int>(std::clamp(share, kLeast, kMost)));
+#else
+  (void)limit, (void)threads;
 #endif
 }
 

@@ -177,6 +177,7 @@ int run_render(const Options& options) {
       run.finish(options);
     return 0;
   }
+  keep_spare_heap(scene.render.memory.bytes, run.job().workers.thread_count());
   FrameOptions how;
   how.region = options.picture.region;
 
