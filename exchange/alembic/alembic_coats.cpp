@@ -68,7 +68,7 @@ class AlembicFrame {
 std::vector<std::filesystem::path> write_alembic_coats(const std::filesystem::path& folder,
                                                        const ExportSource& source, ExportNotes& notes,
                                                        const Job& job) {
-  notes.add("scene", "the files hold only strands: no skins, materials, lights and camera");
+  notes.add("scene", "the files hold only strands: no skins, materials, lights or cameras");
   std::vector<std::filesystem::path> paths;
   const std::vector<int>& frames = source.scene.frames.frames;
   for (const int frame : frames) {

@@ -89,9 +89,11 @@ uint64_t OgawaFile::word(const OgawaGroup& group, uint64_t child) const {
 uint64_t OgawaFile::number_at(uint64_t position) const {
   if (position > size() || size() - position < 8) fail("points beyond its end", position);
   if (position < window_position_ || position + 8 > window_position_ + window_.size()) {
-    window_.resize(std::min<uint64_t>(kWindow, size() - position));
+    // The old window stays as it is if this throws.
+    std::vector<std::byte> window(std::min<uint64_t>(kWindow, size() - position));
+    read_at(position, window);
+    window_ = std::move(window);
     window_position_ = position;
-    read_at(position, window_);
   }
   uint64_t number = 0;
   std::memcpy(&number, window_.data() + (position - window_position_), sizeof number);

@@ -12,9 +12,10 @@ void ReadBudget::charge(int64_t bytes, const SourcePosition& place) {
     used_bytes_ += bytes;
     return;
   }
-  throw Error(ErrorKind::kMemory, place,
-              fmt::format("reading the strands needs more than the free memory, {}; raise --memory",
-                          memory_text(max_bytes_)));
+  throw Error(
+      ErrorKind::kMemory, place,
+      fmt::format("reading this file needs more than the {} that the memory limit leaves; raise --memory",
+                  memory_text(max_bytes_)));
 }
 
 }  // namespace pelage

@@ -33,7 +33,7 @@ void ArrivalGuess::begin(size_t lights) {
 
 void ArrivalGuess::add(uint32_t zone, size_t light, uint32_t range, double luminance, float through) {
   const size_t at = index(zone, light);
-  if (at >= zones_.size()) zones_.resize((zone % kZones + 1) * lights_);
+  if (at >= zones_.size()) zones_.resize((zone % kZonesOfTile + 1) * lights_);
   zones_[at].all.add(luminance, through);
   zones_[at].by_range[range].add(luminance, through);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "render/gather/zones.h"
 
 namespace pelage {
 
@@ -15,8 +16,6 @@ class ArrivalGuess {
  public:
   /// Count of ranges of directions: the quarters of the faces of a cube.
   static constexpr uint32_t kRanges = 24;
-  /// Zones of a tile whose indices are equal modulo kZones share what is learned.
-  static constexpr uint32_t kZones = 256;
   /// Returns the range that contains a direction.
   static uint32_t range_of(const V3f& direction);
 
@@ -67,7 +66,7 @@ class ArrivalGuess {
 
   /// Returns the max memory, in bytes.
   static constexpr size_t bytes(size_t lights) {
-    return kZones * lights * (2 * sizeof(Zone) + kRanges * sizeof(Known));
+    return kZonesOfTile * lights * (2 * sizeof(Zone) + kRanges * sizeof(Known));
   }
 
  private:
@@ -77,7 +76,7 @@ class ArrivalGuess {
   struct Known {
     float fraction = 0, deviation = 1;
   };
-  size_t index(uint32_t zone, size_t light) const { return zone % kZones * lights_ + light; }
+  size_t index(uint32_t zone, size_t light) const { return zone % kZonesOfTileOfTile * lights_ + light; }
   static float guess(const Sums& of_range, const Sums& of_all);
   static Known known(float fraction);
   Known at(uint32_t zone, size_t light, uint32_t range) const {

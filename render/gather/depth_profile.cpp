@@ -7,8 +7,8 @@
 namespace pelage {
 namespace {
 
-/// The slope of all zones counts as much as this many mean rays or paths of one zone, each a zone away from
-/// the middle of its gather point; a slope of 0 counts as much for all zones.
+/// The slope of each zone is pulled towards the mean slope, and the mean slope towards 0: each as strongly as
+/// by this many average rays that are one zone away from the middle of their gather points.
 constexpr double kPriorTraces = 24;
 /// Max slope of the logarithm of the profile, per zone.
 constexpr double kSteepest = 1.5;
@@ -24,19 +24,19 @@ void DepthProfile::begin(size_t sources) {
 void DepthProfile::add(uint32_t gather_point, const DepthPlace& place, size_t source, double seen,
                        double arrived) {
   arrivals_.push_back({gather_point, static_cast<uint32_t>(source),
-                       static_cast<float>(place.zone) + place.next, static_cast<float>(seen),
+                       static_cast<float>(place.zone) + place.toward_next, static_cast<float>(seen),
                        static_cast<float>(arrived)});
 }
 
 void DepthProfile::learn() {
-  std::vector<Regression> zones(kZones * sources_);
+  std::vector<Regression> zones(kZonesOfTile * sources_);
   for (auto begin = arrivals_.begin(), end = begin; begin != arrivals_.end(); begin = end) {
     end = std::find_if(begin, arrivals_.end(), [&](const Arrival& other) {
       return other.gather_point != begin->gather_point || other.source != begin->source;
     });
     compare(std::span(begin, end), zones);
   }
-  logarithm_.assign(kZones * sources_, 0.0f);
+  logarithm_.assign(kZonesOfTile * sources_, 0.0f);
   for (size_t source = 0; source < sources_; ++source) integrate(zones, source);
 }
 
@@ -50,7 +50,7 @@ void DepthProfile::compare(std::span<const Arrival> of_gather_point, std::vector
   }
   if (!(seen > 0)) return;
   middle /= seen;
-  const size_t zone = static_cast<size_t>(std::max(middle + 0.5, 0.0)) % kZones;
+  const size_t zone = static_cast<size_t>(std::max(middle + 0.5, 0.0)) % kZonesOfTile;
   Regression& to = zones[zone * sources_ + of_gather_point.front().source];
   for (const Arrival& of : of_gather_point) {
     const double offset = of.depth - middle;
@@ -59,7 +59,8 @@ void DepthProfile::compare(std::span<const Arrival> of_gather_point, std::vector
   }
 }
 
-/// Computes the profile of a source from the slopes in its zones.
+/// Computes the profile of a source from the slopes in its zones. Each coat starts at 0: only the depths of
+/// one coat are compared, and a sum over many coats would overflow.
 void DepthProfile::integrate(const std::vector<Regression>& zones, size_t source) {
   double arrived = 0, count = 0;
   for (const Arrival& of : arrivals_) {
@@ -76,7 +77,8 @@ void DepthProfile::integrate(const std::vector<Regression>& zones, size_t source
   for (size_t i = source; i < zones.size(); i += sources_) {
     const double slope = (zones[i].found + prior * mean) / (zones[i].expected + prior);
     const double bounded = std::clamp(slope, -kSteepest, kSteepest);
-    if (i != source) sum += 0.5 * (before + bounded);
+    const bool is_first = i / sources_ % kZonesOfCoat == 0;
+    sum = is_first ? 0 : sum + 0.5 * (before + bounded);
     logarithm_[i] = static_cast<float>(sum);
     before = bounded;
   }
@@ -84,9 +86,9 @@ void DepthProfile::integrate(const std::vector<Regression>& zones, size_t source
 
 float DepthProfile::at(const DepthPlace& place, size_t source) const {
   if (logarithm_.empty()) return 1;
-  const auto value = [&](size_t zone) { return logarithm_[zone % kZones * sources_ + source]; };
+  const auto value = [&](size_t zone) { return logarithm_[zone % kZonesOfTile * sources_ + source]; };
   const float here = value(place.zone);
-  return std::exp(here + place.next * (value(place.zone + 1) - here));
+  return std::exp(here + place.toward_next * (value(place.zone + 1) - here));
 }
 
 }  // namespace pelage

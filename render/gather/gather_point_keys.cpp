@@ -13,7 +13,6 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kZones = GatherPointKey::kZones;
 /// A strand whose gather points are seen by fewer samples uses the cells of its coat.
 constexpr float kFewest = 4;
 
@@ -54,10 +53,10 @@ GatherPointKey GatherPointKeys::on_strand(const Hit& hit, const Strands& strand,
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
   const uint32_t gather_point = gather_point_near(place, level, random.x);
-  const uint32_t zone = std::min(kZones * gather_point >> level, kZones - 1);
+  const uint32_t zone = std::min(kZonesOfCoat * gather_point >> level, kZonesOfCoat - 1);
   const uint64_t coat = hash64(random_use("coat"), hit.part);
   // Pairs of gather points where these are shorter than a zone.
-  const uint32_t part = (1u << level) > 2 * kZones ? kZones + gather_point / 2 : zone;
+  const uint32_t part = (1u << level) > 2 * kZonesOfCoat ? kZonesOfCoat + gather_point / 2 : zone;
   const uint64_t patch = hash64(gather_points.patch, part);
   if (gather_points.in_cells) {
     const uint64_t bits = std::bit_cast<uint32_t>(random.y);

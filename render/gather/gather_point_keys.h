@@ -12,6 +12,7 @@
 #include "render/accel/strand_handle.h"
 #include "render/camera/camera.h"
 #include "render/gather/coat_cells.h"
+#include "render/gather/zones.h"
 #include "render/scene/frame_scene.h"
 
 namespace pelage {
@@ -48,19 +49,18 @@ class RecentGatherPoints {
   std::vector<Kept> kept_ = std::vector<Kept>(kCount);
 };
 
-/// Identifies a gather point, its patch and its zone. A gather point is a position on a strand or skin, or a
-/// cell of a coat (see CoatCells). Visible points near the same gather point share light. A patch is a part
-/// of a coat, a few pixels long and wide, or a single gather point of a skin. About the same indirect light
-/// arrives at all gather points of a patch. A zone is one of eight depth ranges of a coat, or a whole skin.
+/// Identifies a gather point, its patch and its zone, and says how deep in the coat the hit is. A gather
+/// point is a position on a strand or skin, or a cell of a coat (see CoatCells). Visible points near the same
+/// gather point share light. A patch is a part of a coat, a few pixels long and wide, or a single gather
+/// point of a skin. About the same indirect light arrives at all gather points of a patch. A zone is one of
+/// eight depth ranges of a coat, or a whole skin.
 struct GatherPointKey {
-  static constexpr uint32_t kZones = 8;  ///< of a coat
-
   uint64_t gather_point = 0;
   uint64_t patch = 0;
   uint64_t coat = 0;  ///< the coat or the skin
   uint32_t zone = 0;  ///< of the gather point, counted from the roots; 0 on skins
-  float depth =
-      0.5f / kZones;  ///< of the hit, from 0 at the root to 1 at the tip; the middle of zone 0 on skins
+  /// Of the hit, from 0 at the root to 1 at the tip; the middle of zone 0 on skins.
+  float depth = 0.5f / kZonesOfCoat;
 };
 
 /// Assigns the hits of a frame to gather points.

@@ -30,8 +30,8 @@ namespace pelage {
 /// this choice cancels.
 ///
 /// Unoccluded light may be multiplied by a factor of its visible point, before it is added to U and when it
-/// is multiplied by the fraction. The product, summed over the points of a gather point, stays the same; only
-/// its distribution changes. DepthProfile gives these factors.
+/// is multiplied by the fraction. The sum of these products over the points of a gather point does not
+/// change, but their distribution does. DepthProfile gives these factors.
 class LightSharing {
  public:
   /// Starts a tile. `groups`: count of groups of lights that the guess tells apart.

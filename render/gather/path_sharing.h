@@ -25,7 +25,7 @@ namespace pelage {
 /// of the same zone (one of eight depth ranges of a coat, or a whole skin).
 ///
 /// Radiances may be relative to a factor of each visible point, by which the weights of the point are
-/// multiplied; the sum over the points of a gather point stays the same. DepthProfile gives these factors.
+/// multiplied. DepthProfile gives these factors.
 class PathSharing {
  public:
   /// Starts a tile. `guess`: whether p is the mean over the other gather points of the zone; otherwise, p =

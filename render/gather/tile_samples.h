@@ -10,7 +10,7 @@
 #include "render/fibre/fibre_value.h"
 #include "render/film/visible_surface.h"
 #include "render/frame/tile_order.h"
-#include "render/gather/depth_profile.h"
+#include "render/gather/zones.h"
 
 namespace pelage {
 

@@ -32,10 +32,9 @@ VisiblePoints::VisiblePoints(const FrameScene& scene, const Accel& accel, const 
 /// Finds the indices of the gather point, patch and zone of a visible point.
 void VisiblePoints::assign(const GatherPointKey& key, Scratch& scratch, TileSamples& tile,
                            VisiblePoint& visible) const {
-  constexpr uint32_t kZones = GatherPointKey::kZones;
-  const uint32_t first_zone = scratch.coats.index(key.coat) * kZones;
-  const float depth = std::clamp(key.depth, 0.0f, 1.0f) * kZones - 0.5f;
-  const float below = std::clamp(std::floor(depth), 0.0f, kZones - 2.0f);
+  const uint32_t first_zone = scratch.coats.index(key.coat) * kZonesOfCoat;
+  const float depth = std::clamp(key.depth, 0.0f, 1.0f) * kZonesOfCoat - 0.5f;
+  const float below = std::clamp(std::floor(depth), 0.0f, kZonesOfCoat - 2.0f);
   visible.depth = {first_zone + static_cast<uint32_t>(below), depth - below};
   // Without reuse, each point has a gather point of its own.
   const auto count = static_cast<uint32_t>(tile.zone_of_gather_point.size());
@@ -43,7 +42,7 @@ void VisiblePoints::assign(const GatherPointKey& key, Scratch& scratch, TileSamp
   if (visible.gather_point < count) return;
   tile.zone_of_gather_point.push_back(first_zone + key.zone);
   tile.patch_of_gather_point.push_back(scratch.patches.index(key.patch));
-  tile.zones = scratch.coats.size() * kZones;
+  tile.zones = scratch.coats.size() * kZonesOfCoat;
   tile.patches = scratch.patches.size();
 }
 

@@ -64,9 +64,9 @@ TEST_F(ConvertCommandTest, RefusesFilesThatNeedMoreThanTheMemory) {
       ADD_FAILURE() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-      EXPECT_EQ(
-          std::string(error.what()),
-          options_.input + ": reading the strands needs more than the free memory, 64 bytes; raise --memory");
+      EXPECT_EQ(std::string(error.what()), options_.input +
+                                               ": reading this file needs more than the 64 bytes that the "
+                                               "memory limit leaves; raise --memory");
     }
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.usda"));
   }

@@ -20,6 +20,7 @@ MIB = 1 << 20
 LIMIT = 64 * MIB
 SOAKS = {"colony.yaml", "colony_100.yaml", "half_billion.yaml", "bear.yaml", "presets.yaml",
          "windy.yaml", "mane.yaml"}  # minutes, or need a simulation; colony_small is one in little, rat.yaml is windy.yaml
+SAME_COAT = {"rat_flat.yaml", "rack_focus.yaml"}  # as rat.yaml: panning_shot.yaml is the one that moves
 
 SCENE = """pelage: 1
 camera: {{position: [0, 6, 12], look_at: [0, 0, 0]}}
@@ -89,7 +90,7 @@ class Memory(unittest.TestCase):
 
     def test_examples(self):
         """Each example either keeps to the limit, or is refused and renders with more memory."""
-        scenes = [path for path in sorted((ROOT / "examples").glob("*.yaml")) if path.name not in SOAKS]
+        scenes = [path for path in sorted((ROOT / "examples").glob("*.yaml")) if path.name not in SOAKS | SAME_COAT]
         small = "image.width=96", "image.height=54", "render.samples=1", "frames=1"
         for path in scenes:
             with self.subTest(scene=path.name):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import threading
 import time
 import traceback
 import weakref
@@ -18,13 +19,16 @@ KEPT_S = 2.0
 """Blender frees a viewport's engine at each undo and makes another: its session is kept this long for the next one."""
 _sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
 _spare: list[tuple[float, ViewportSession]] = []
+_closing = threading.Event()
+"""Blender ends: nobody will acquire what it frees from now on."""
 
 
 def acquire() -> ViewportSession:
     """A session for a new engine: one that has just been released, or a new one. Raises PelageFailed."""
+    program = preferences.program()
     while _spare:
         _, session = _spare.pop()
-        if session.program == preferences.program() and (session.client is None or not session.client.ended):
+        if session.program == program and (session.client is None or not session.client.ended):
             return session
         _end(session)
     session = ViewportSession()
@@ -34,7 +38,7 @@ def acquire() -> ViewportSession:
 
 def release(session: ViewportSession) -> None:
     """Ends a session soon, unless another engine acquires it."""
-    if KEPT_S == 0:
+    if _closing.is_set():
         _end(session)
         return
     _spare.append((time.monotonic(), session))
@@ -82,8 +86,7 @@ def close_all() -> None:
 
 
 def _at_exit() -> None:
-    global KEPT_S
-    KEPT_S = 0.0  # nobody will acquire what Blender frees from now on
+    _closing.set()
     close_all()
 
 

@@ -81,7 +81,7 @@ TEST(ArrivalGuess, LeavesRaysOut) {
 TEST(ArrivalGuess, ZonesBeyondTheLimitShare) {
   ArrivalGuess guess;
   guess.begin(1);
-  for (int i = 0; i < 100; ++i) guess.add(3 + ArrivalGuess::kZones, 0, 0, 1, 1);
+  for (int i = 0; i < 100; ++i) guess.add(static_cast<uint32_t>(3 + kZonesOfTile), 0, 0, 1, 1);
   guess.learn();
   EXPECT_NEAR(guess.fraction(3, 0, 0), 1.0f, 1e-6f);
 }

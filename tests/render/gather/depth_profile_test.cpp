@@ -11,12 +11,10 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kZones = 8;  // of a coat
-
-DepthPlace place_at(float depth) {
-  const float zones = depth * kZones - 0.5f;
-  const float below = std::clamp(std::floor(zones), 0.0f, kZones - 2.0f);
-  return {static_cast<uint32_t>(below), zones - below};
+DepthPlace place_at(float depth, uint32_t coat = 0) {
+  const float zones = depth * kZonesOfCoat - 0.5f;
+  const float below = std::clamp(std::floor(zones), 0.0f, kZonesOfCoat - 2.0f);
+  return {coat * kZonesOfCoat + static_cast<uint32_t>(below), zones - below};
 }
 
 /// Adds rays of gather points, each within an eighth of a strand. From the root to the tip, the fraction that
@@ -80,6 +78,31 @@ TEST(DepthProfile, IsPositiveAndFiniteWhereNothingArrives) {
   for (float depth = 0; depth <= 1; depth += 0.125f) {
     EXPECT_GT(profile.at(place_at(depth), 0), 0) << depth;
     EXPECT_LT(profile.at(place_at(depth), 0), 1e6f) << depth;
+  }
+}
+
+/// More coats than a tile keeps apart, all of them steep.
+TEST(DepthProfile, StaysWithinBoundsInATileOfManyCoats) {
+  for (const bool brighter_at_tips : {true, false}) {
+    DepthProfile profile;
+    profile.begin(1);
+    for (uint32_t i = 0; i < 40 * 500; ++i) {
+      const uint32_t coat = i / 500;
+      const float depth = unit_float(hash64(i, random_use("depth")));
+      for (const float offset : {-0.06f, 0.06f}) {
+        const bool tip = offset > 0;
+        profile.add(i, place_at(std::clamp(depth + offset, 0.0f, 1.0f), coat), 0, 1, tip == brighter_at_tips);
+      }
+    }
+    profile.learn();
+    for (uint32_t coat = 0; coat < 40; ++coat) {
+      const float root = profile.at(place_at(0, coat), 0), tip = profile.at(place_at(1, coat), 0);
+      EXPECT_GT(brighter_at_tips ? tip / root : root / tip, 100) << coat;
+      for (const float value : {root, tip}) {
+        EXPECT_GT(value, 1e-5f) << coat;
+        EXPECT_LT(value, 1e5f) << coat;
+      }
+    }
   }
 }
 

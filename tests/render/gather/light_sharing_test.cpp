@@ -2,6 +2,7 @@
 #include "render/gather/light_sharing.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -115,6 +116,28 @@ void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
     }
   }
   sharing.finish(Points::kGatherPoints);
+}
+
+/// As with DepthProfile: unoccluded light is multiplied by a factor of its point, and so is the fraction.
+TEST(LightSharing, FactorsOfPointsKeepTheLightOfAGatherPoint) {
+  constexpr uint32_t kPoints = 50;
+  LightSharing sharing;
+  sharing.begin(1, 1);
+  const auto factor = [](uint32_t point) { return std::exp2(20 * unit_float(hash64(point, 5)) - 10); };
+  Rgb arriving(0);
+  for (uint32_t p = 0; p < kPoints; ++p) {
+    auto lobes = Points::part(p, 0, 0);
+    const float through = unit_float(hash64(p, 6));
+    sharing.add_arriving(0, 0, lobes.data(), through);
+    arriving += through * lobes[1];
+    for (Rgb& lobe : lobes) lobe *= factor(p);
+    sharing.add_unoccluded(0, 0, lobes.data());
+  }
+  sharing.finish(1);
+  Rgb shared(0);
+  for (uint32_t p = 0; p < kPoints; ++p)
+    shared += Points::part(p, 0, 0)[1] * factor(p) * sharing.fraction(0, 0, 1);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shared[c], arriving[c], 1e-4f * arriving[c]);
 }
 
 TEST(LightSharing, IsExactWhenEveryLightPointHasItsRay) {
