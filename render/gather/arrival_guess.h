@@ -76,7 +76,7 @@ class ArrivalGuess {
   struct Known {
     float fraction = 0, deviation = 1;
   };
-  size_t index(uint32_t zone, size_t light) const { return zone % kZonesOfTileOfTile * lights_ + light; }
+  size_t index(uint32_t zone, size_t light) const { return zone % kZonesOfTile * lights_ + light; }
   static float guess(const Sums& of_range, const Sums& of_all);
   static Known known(float fraction);
   Known at(uint32_t zone, size_t light, uint32_t range) const {

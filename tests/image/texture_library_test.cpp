@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -115,12 +116,20 @@ void write_rgbe(const std::filesystem::path& file, const Case& c) {
 
 class TiledTextures : public testing::TestWithParam<Case> {
  protected:
+  static void SetUpTestSuite() { written_ = std::make_unique<TemporaryFolder>(); }
+  static void TearDownTestSuite() { written_.reset(); }
+  /// Writes the file of the case once for all tests, because this takes longer than most of them.
   void SetUp() override {
+    const std::filesystem::path once = written_->path() / GetParam().name;
+    if (!std::filesystem::exists(once)) GetParam().write(once, GetParam());
     file = {folder.path() / GetParam().name, {"scene.yaml", 7, 9}};
-    GetParam().write(file.path, GetParam());
+    std::filesystem::copy_file(once, file.path);
   }
   TemporaryFolder folder;
   AssetPath file;
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> written_;
 };
 
 float coordinate(uint64_t i, uint64_t use) {

@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kWallWidth = 48, kWallHeight = 64, kPictures = 4;
+constexpr int kWallWidth = 48, kWallHeight = 64, kPictures = 2;
 
 /// A wall of overlapping strands that hang down, as in the coat of a penguin: each is shaded at its root by
 /// those above, and bright at its tip. The pixels are a unit large.
