@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Collects the warnings of a reader about what it skips or approximates: one warning per kind and file, with
-/// the place of the first case and the number of cases.
+/// Collects warnings about data that a reader skips or approximates. Each kind gives one warning per file,
+/// with the place of the first case and the number of cases.
 class ReadWarnings {
  public:
   void add(const std::string& kind, const SourcePosition& place);

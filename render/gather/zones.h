@@ -10,8 +10,8 @@ namespace pelage {
 /// skin uses only the first of its zones.
 inline constexpr uint32_t kZonesOfCoat = 8;
 
-/// What is learned about a tile is kept for this many zones, those of 32 coats and skins. Zones whose indices
-/// are equal modulo this number share what is learned.
+/// A tile keeps statistics for this many zones, which are those of 32 coats and skins. If it has more, zones
+/// whose indices are equal modulo this number share their statistics.
 inline constexpr size_t kZonesOfTile = 32 * kZonesOfCoat;
 
 /// A position along the strands of a coat, between the middles of two of its zones.

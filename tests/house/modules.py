@@ -84,8 +84,8 @@ def read_shared_libraries(text):
 
 
 def read_inner_layers(text):
-    """Folder of a module -> the folders of the same module that it may include; in the order of the table. A folder "."
-    stands for the files directly in the module."""
+    """Returns, in the order of the table, each folder of a module with the folders of the same module that it may
+    include. The folder "." means the files that lie in no folder of the module."""
     if "### Inner layers" not in text:
         return {}
     return {re.fullmatch(r"`([a-z]+/[a-z]+)/`", folder).group(1): may_include.split() if may_include != "–" else []

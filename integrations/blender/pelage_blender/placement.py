@@ -13,7 +13,7 @@ from .axes import numbers, place, to_pelage
 from .shutter import moving
 
 ROUNDING = 1e-5
-"""Parts of its size by which a shared mesh may differ from that of an instance: matrices of Blender have single floats."""
+"""Largest error of a shared mesh, relative to its size. Blender stores the matrices of instances as single floats."""
 AXES = to_pelage(np.eye(3)).T.astype(np.float64)
 """The matrix that turns points of Blender into those of Pelage."""
 

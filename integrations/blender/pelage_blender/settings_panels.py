@@ -16,10 +16,10 @@ WITHOUT_COUNTERPART = (
     "shader nodes other than colours, numbers and image textures",
     "panoramic cameras, pixels that are not square, clipping",
     "spread of area lights, ray visibility, light linking, holdouts",
-    "rolling shutter and shutter curves; motion of strands other than that of their emitter",
+    "rolling shutter, shutter curves, motion of strands relative to their emitter",
     "Freestyle, denoising, Cryptomatte",
 )
-"""What Blender has and Pelage has not; shown in the panel."""
+"""Features of Blender that Pelage ignores. The panel shows them."""
 
 
 class _Panel:

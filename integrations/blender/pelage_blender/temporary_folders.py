@@ -14,9 +14,10 @@ PREFIX = "pelage-blender-"
 
 
 def owner_prefix() -> str:
-    """How the names of the temporary folders of this machine's processes begin; computers may share a folder for them.
+    """Returns the prefix of the names of temporary folders that processes of this machine make.
 
-    Containers have numbers of processes of their own, so the name stands for both.
+    Several machines may share a folder for temporary files, and each container numbers its processes anew. So the
+    prefix names the machine and the container.
     """
     try:
         space = os.readlink("/proc/self/ns/pid")

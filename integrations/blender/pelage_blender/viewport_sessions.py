@@ -16,11 +16,12 @@ from .temporary_folders import remove_stale_folders
 from .viewport import ViewportSession
 
 KEPT_S = 2.0
-"""Blender frees a viewport's engine at each undo and makes another: its session is kept this long for the next one."""
+"""How long a released session is kept. At each undo, Blender frees the engine of a viewport and makes another one,
+which acquires this session."""
 _sessions: weakref.WeakSet[ViewportSession] = weakref.WeakSet()
 _spare: list[tuple[float, ViewportSession]] = []
 _closing = threading.Event()
-"""Blender ends: nobody will acquire what it frees from now on."""
+"""Set when Blender exits. From then on, released sessions end at once."""
 
 
 def acquire() -> ViewportSession:
