@@ -32,7 +32,7 @@ def new_folder() -> str:
 
 
 def remove_stale_folders() -> None:
-    """Removes folders of processes of this machine that are gone, which were killed."""
+    """Removes the folders of processes of this machine that no longer run, because they were killed."""
     prefix = owner_prefix()
     for path in pathlib.Path(tempfile.gettempdir()).glob(f"{prefix}*"):
         owner = path.name[len(prefix):].partition("-")[0]
