@@ -39,13 +39,16 @@ class MemoryLedger {
   /// Returns the bytes in use by all tags that `render.memory` includes.
   int64_t budgeted() const;
 
-  /// Sets the limit `render.memory` in bytes; 0 means no limit. Call before charging anything. The ledger
-  /// does not enforce the limit: code that is about to allocate memory must check it (base/memory_budget.h).
-  void set_limit(uint64_t bytes) {
+  /// Sets the limit in bytes; 0 means no limit. `name`: what users set it by, for messages; a literal. Call
+  /// before charging anything. The ledger does not enforce the limit: code that is about to allocate memory
+  /// must check it (base/memory_budget.h).
+  void set_limit(uint64_t bytes, std::string_view name = "render.memory") {
     limit_ = static_cast<int64_t>(bytes);
+    limit_name_ = name;
     elastic_ = 0;
   }
   int64_t limit() const { return limit_; }
+  std::string_view limit_name() const { return limit_name_; }
   /// Notes that a holder took so many bytes less than it would take under a higher limit. Advice about the
   /// limit includes them: otherwise, the holder would take them, and the advised limit would be too low.
   void add_elastic(int64_t bytes) { elastic_ += bytes; }
@@ -58,6 +61,7 @@ class MemoryLedger {
   };
   std::array<Account, static_cast<size_t>(MemoryTag::kCount)> accounts_;
   int64_t limit_ = 0;
+  std::string_view limit_name_ = "render.memory";
   std::atomic<int64_t> elastic_{0};
 };
 

@@ -39,8 +39,8 @@ void require_memory(const MemoryLedger& ledger, int64_t bytes, std::string_view 
   const int64_t needed = ledger.budgeted() + bytes + ledger.elastic();
   throw Error(
       ErrorKind::kMemory,
-      fmt::format("{} needs {}, but render.memory is {} and {}; give at least --memory {}M", what,
-                  memory_text(bytes), memory_text(ledger.limit()), in_use_text(ledger), (needed >> 20) + 1));
+      fmt::format("{} needs {}, but {} is {} and {}; give at least --memory {}M", what, memory_text(bytes),
+                  ledger.limit_name(), memory_text(ledger.limit()), in_use_text(ledger), (needed >> 20) + 1));
 }
 
 MemoryCharge reserve(MemoryLedger& ledger, MemoryTag tag, int64_t bytes, std::string_view what) {

@@ -88,6 +88,7 @@ std::shared_ptr<const GrowthCache> growth_cache(const RunOptions& options) {
 
 void interpret_run(const RunTexts& texts, RunOptions& options) {
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
+  options.set_count = options.overrides.size();
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))
       fail_arguments("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));

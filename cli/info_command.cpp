@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <iostream>
 #include <string_view>
 
@@ -11,6 +10,7 @@
 #include "cli/progress_display.h"
 #include "cli/read_scene.h"
 #include "geom/io/mesh_file.h"
+#include "geom/io/obj_file.h"
 #include "image/exr_file.h"
 #include "rib/document/rib_document.h"
 
@@ -30,16 +30,12 @@ std::string describe_strand_file(const Options& options) {
 
 std::string describe_mesh_file(const Options& options) {
   MemoryLedger ledger;
-  ledger.set_limit(static_cast<uint64_t>(options.memory));
+  ledger.set_limit(static_cast<uint64_t>(options.memory), "--memory");
   NoProgress progress;
   const Workers workers(1);
-  // The readers of USD and Alembic charge the memory that they use. An OBJ needs its text, and three times as
-  // much in arrays that grow by doubling.
-  if (lower_extension(options.input) == ".obj") {
-    std::error_code unknown;  // the reader reports it
-    const uintmax_t size = std::filesystem::file_size(options.input, unknown);
-    require_memory(ledger, unknown ? 0 : 4 * static_cast<int64_t>(size), "reading " + options.input);
-  }
+  // The readers of USD and Alembic charge the memory that they use.
+  if (lower_extension(options.input) == ".obj")
+    require_memory(ledger, obj_reading_bytes(options.input), "reading " + options.input);
   return describe_mesh(read_mesh_file(options.input, {workers, ledger, progress}), options.input);
 }
 
@@ -52,7 +48,7 @@ std::string describe_exr_file(const Options& options) {
     buffers = header.buffer_bytes();
   }
   MemoryLedger ledger;
-  ledger.set_limit(static_cast<uint64_t>(options.memory));
+  ledger.set_limit(static_cast<uint64_t>(options.memory), "--memory");
   require_memory(ledger, buffers + 4 * words, "reading " + options.input);
   return describe_exr(read_exr(options.input));
 }
@@ -80,10 +76,7 @@ std::string describe_file(const Options& options) {
     ProgressDisplay display(options.progress, [] { return false; });
     return describe_scene(read_scene(options, display));
   }
-  // --memory is an override, too.
-  if (std::any_of(options.overrides.begin(), options.overrides.end(),
-                  [](const Override& one) { return one.key != "render.memory"; }))
-    throw Error(ErrorKind::kArguments, "--set works on scene files only");
+  if (options.set_count > 0) throw Error(ErrorKind::kArguments, "--set works on scene files only");
   if (is_usd_file(path) || is_alembic_file(path)) return describe_scene_file(options);
   if (is_strand_file(path)) return describe_strand_file(options);
   if (kind == ".obj") return describe_mesh_file(options);

@@ -33,6 +33,7 @@ struct RunOptions {
   std::string output;
   /// Values of --set, followed by those of flags that set scene values, such as --frames and --memory.
   std::vector<Override> overrides;
+  size_t set_count = 0;                   ///< how many of the overrides are values of --set
   std::optional<std::string> stats;       ///< --stats
   std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between samples
   int threads = 0;                        ///< --threads; 0: as many as are available to the process

@@ -35,12 +35,12 @@ PartParams& part_on(const NameReference& skin, CharacterParams& character) {
 
 void wear_unworn_grooms(SceneDescription& scene, const std::string& groom) {
   if (groom.empty() && !scene.characters.items.empty()) return;
-  const bool has_no_skin = scene.skins.find(kNoSkin) != nullptr;
+  const bool has_empty_skin = scene.skins.find(kNoSkin) != nullptr;
   CharacterParams character;
   for (const auto& item : scene.grooms.items) {
     if ((!groom.empty() && item.name != groom) || is_worn(scene, item.name)) continue;
     NameReference skin = item.value.skin;
-    if (skin.name.empty() && has_no_skin) skin.name = kNoSkin;
+    if (skin.name.empty() && has_empty_skin) skin.name = kNoSkin;
     part_on(skin, character).grooms.items.push_back({item.name, item.position, {kAdded, item.position}});
   }
   if (character.parts.empty()) return;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/file.h"
-#include "geom/usd/usd_writer.h"
+#include "geom/interchange/unique_names.h"
 
 namespace pelage {
 namespace {
@@ -83,7 +83,7 @@ class StillWriter {
   ExportNotes& notes_;
   const Job& job_;
   MaterialTable materials_;
-  UsdNames names_;
+  UniqueNames names_;
 };
 
 }  // namespace

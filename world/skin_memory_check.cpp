@@ -2,12 +2,12 @@
 #include "world/skin_memory_check.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/counted.h"
 #include "base/memory_budget.h"
+#include "geom/io/obj_file.h"
 #include "geom/skin_memory.h"
 
 namespace pelage {
@@ -21,10 +21,7 @@ int64_t needed(const ControlMesh& cage, SubdivisionScheme scheme) {
 }  // namespace
 
 MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, const Job& job) {
-  constexpr int64_t kOfFile = 4;  // the text, and three times as much in arrays that grow by doubling
-  std::error_code unknown;
-  const auto bytes = static_cast<int64_t>(std::filesystem::file_size(params.mesh.path, unknown));
-  return reserve(job.ledger, MemoryTag::kSkins, unknown ? 0 : kOfFile * bytes,
+  return reserve(job.ledger, MemoryTag::kSkins, obj_reading_bytes(params.mesh.path),
                  fmt::format("reading {} for skin '{}'", params.mesh.path.filename().string(), name));
 }
 

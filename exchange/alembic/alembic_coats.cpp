@@ -4,8 +4,8 @@
 #include "base/memory_budget.h"
 #include "exchange/still_geometry.h"
 #include "geom/alembic/alembic_curves_writer.h"
+#include "geom/interchange/unique_names.h"
 #include "geom/strand_merge.h"
-#include "geom/usd/usd_writer.h"
 #include "rib/host/coat_tree.h"
 
 namespace pelage {
@@ -20,13 +20,13 @@ class AlembicFrame {
 
   void write(const std::vector<FrameCoat>& coats) {
     AlembicObjectWriter top(writer_, "", {});
-    UsdNames characters;
+    UniqueNames characters;
     // The coats of a character follow each other.
     for (size_t first = 0, end = 0; first < coats.size(); first = end) {
       const std::string& character = coats[first].character;
       while (end < coats.size() && coats[end].character == character) ++end;
       AlembicObjectWriter object = alembic_groom(writer_, characters.unique(character));
-      UsdNames grooms;
+      UniqueNames grooms;
       for (size_t i = first; i < end; ++i) write_coat(coats[i], grooms.unique(coats[i].groom), object);
       top.add(std::move(object));
     }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "exchange/still_scene.h"
-#include "geom/usd/usd_writer.h"
+#include "geom/interchange/unique_names.h"
 
 namespace pelage {
 namespace {
@@ -102,7 +102,7 @@ class PbrtFrame {
     write_camera(frame);
     text_.add("WorldBegin\n\n");
     for (const ExportedLight& light : scene_.lights) write_light(light);
-    UsdNames names;
+    UniqueNames names;
     for (const ExportedMaterial& material : scene_.materials) {
       material_names_.push_back(names.unique(material.name));
       write_material(material);

@@ -6,6 +6,7 @@
 #include "exchange/usd/usd_coat.h"
 #include "exchange/usd/usd_shading.h"
 #include "exchange/usd/usd_skin.h"
+#include "geom/interchange/unique_names.h"
 
 namespace pelage {
 namespace {
@@ -36,7 +37,7 @@ class UsdSceneWriter {
                                     "{}\nendTimeCode = {}\n{}",
                                     source_.scene.units.fps, *first, *last, units_));
     usd.open("def Xform \"scene\"");
-    UsdNames children;
+    UniqueNames children;
     for (const char* taken : {"camera", "lights", "materials"}) children.unique(taken);
     for (const auto& [character, parts] : characters_) {
       usd.open(fmt::format("def Xform {} (kind = \"component\")", usd_string(children.unique(character))));
@@ -133,7 +134,7 @@ class UsdSceneWriter {
 
   void write_lights(UsdWriter& usd) {
     usd.open("def Scope \"lights\"");
-    UsdNames names;
+    UniqueNames names;
     for (const ExportedLight& light :
          exported_lights(source_.scene, source_.scene.frames.frames.front(), 1, notes_))
       write_usd_light(usd, names.unique(light.name), light, notes_);
@@ -149,9 +150,9 @@ class UsdSceneWriter {
   const PosedFrames frames_;
   MaterialTable materials_;
   const std::string units_;
-  UsdNames files_, material_names_;
+  UniqueNames files_, material_names_;
   std::vector<std::string> material_prims_;  // names in the stage, of materials_.all()
-  std::map<std::string, UsdNames> prim_names_;
+  std::map<std::string, UniqueNames> prim_names_;
   std::vector<std::pair<std::string, std::vector<Part>>> characters_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exchange/usd/usd_skin.h"
 
+#include "geom/interchange/unique_names.h"
+
 namespace pelage {
 namespace {
 
@@ -52,7 +54,7 @@ void write_tags(UsdWriter& usd, const ControlMesh& mesh, BoundaryRule boundary) 
 
 void write_subsets(UsdWriter& usd, const ControlMesh& mesh) {
   if (mesh.groups.size() < 2 || mesh.face_groups.empty()) return;
-  UsdNames names;
+  UniqueNames names;
   for (size_t group = 0; group < mesh.groups.size(); ++group) {
     std::vector<uint32_t> faces;
     for (uint32_t face = 0; face < mesh.face_groups.size(); ++face) {

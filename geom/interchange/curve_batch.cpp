@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
+#include "geom/interchange/strand_order.h"
 
 namespace pelage {
 namespace {
@@ -81,7 +81,7 @@ class CurveJoiner {
       add(batch);
       batch = {};
     }
-    sort_by_id();
+    sort_by_id(ids_, arrays_);
     for (size_t i = 0; i + 1 < arrays_.first_point.size(); ++i) arrays_.ids.push_back(i);
     return std::move(arrays_);
   }
@@ -277,46 +277,6 @@ class CurveJoiner {
         (has_root || frequency_of(batch.root_uv) != AttributeClass::kPerPoint))
       value_at(batch.root_uv, place, CurvePoint(), uv);
     arrays_.root_uv.emplace_back(uv[0], uv[1]);
-  }
-
-  void sort_by_id() {
-    const size_t count = arrays_.first_point.size() - 1;
-    if (ids_.size() != count || std::is_sorted(ids_.begin(), ids_.end())) return;
-    std::vector<uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return ids_[a] < ids_[b]; });
-    for (size_t i = 1; i < count; ++i) {
-      if (ids_[order[i]] == ids_[order[i - 1]]) return;
-    }
-    StrandArrays sorted;
-    sorted.basis = arrays_.basis;
-    sorted.first_point.push_back(0);
-    sorted.points.reserve(arrays_.points.size());
-    for (const uint32_t s : order) {
-      const size_t first = arrays_.first_point[s], end = arrays_.first_point[s + 1];
-      sorted.points.insert(sorted.points.end(), arrays_.points.begin() + static_cast<ptrdiff_t>(4 * first),
-                           arrays_.points.begin() + static_cast<ptrdiff_t>(4 * end));
-      sorted.first_point.push_back(sorted.first_point.back() + static_cast<uint32_t>(end - first));
-      if (has_uv_) sorted.root_uv.push_back(arrays_.root_uv[s]);
-    }
-    for (StrandAttribute& attribute : arrays_.attributes) sort_attribute(order, attribute);
-    sorted.attributes = std::move(arrays_.attributes);
-    arrays_ = std::move(sorted);
-  }
-
-  void sort_attribute(const std::vector<uint32_t>& order, StrandAttribute& attribute) const {
-    if (attribute.frequency == AttributeClass::kConstant) return;
-    std::vector<float> values;
-    values.reserve(attribute.values.size());
-    const auto n = static_cast<size_t>(attribute.components);
-    for (const uint32_t s : order) {
-      const bool points = attribute.frequency == AttributeClass::kPerPoint;
-      const size_t first = points ? arrays_.first_point[s] : s,
-                   end = points ? arrays_.first_point[s + 1] : s + 1;
-      values.insert(values.end(), attribute.values.begin() + static_cast<ptrdiff_t>(n * first),
-                    attribute.values.begin() + static_cast<ptrdiff_t>(n * end));
-    }
-    attribute.values = std::move(values);
   }
 
   std::vector<CurveBatch> batches_;

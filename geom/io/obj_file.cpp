@@ -349,6 +349,12 @@ void ObjReader::complete_uv() {
 
 }  // namespace
 
+int64_t obj_reading_bytes(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const uintmax_t bytes = std::filesystem::file_size(path, unknown);
+  return unknown ? 0 : 4 * static_cast<int64_t>(bytes);
+}
+
 ControlMesh read_obj(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, kLongestFile);
   return ObjReader(text, path.string(), nullptr).read();

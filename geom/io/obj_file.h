@@ -27,6 +27,10 @@ ControlMesh read_obj(const std::filesystem::path& path);
 /// Reads a cage like read_obj(path), but throws Error (kStopped) when the job is stopped.
 ControlMesh read_obj(const std::filesystem::path& path, const Job& job);
 
+/// Returns the memory in bytes that reading an OBJ file takes at most: its text, and three times as much in
+/// arrays that grow by doubling. 0 if the file cannot be opened, which reading reports.
+int64_t obj_reading_bytes(const std::filesystem::path& path);
+
 /// Reads only the vertex positions, for a pose of a mesh of this order. Throws Error (kInput) when the file
 /// has another number of vertices, or has faces that are not those of the mesh, in the same order: then its
 /// vertices may have another order too. Also throws it when a number is malformed or not finite. A file

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "geom/interchange/unique_names.h"
 
 namespace pelage {
 namespace {
@@ -67,13 +68,13 @@ void write_attribute(UsdWriter& usd, const StrandAttribute& attribute, CurveBasi
     metadata = fmt::format(" (elementSize = {}; {}", components, metadata.substr(2));
     components = 1;
   }
-  std::string identifier;  // of a namespaced name
+  std::string namespaced;
   for (size_t begin = 0; begin <= name.size();) {
     const size_t end = std::min(name.find(':', begin), name.size());
-    identifier += (begin > 0 ? ":" : "") + usd_name(name.substr(begin, end - begin));
+    namespaced += (begin > 0 ? ":" : "") + identifier(name.substr(begin, end - begin));
     begin = end + 1;
   }
-  usd.array(fmt::format("{}[] primvars:{} = ", type, identifier), attribute.values, {components, components},
+  usd.array(fmt::format("{}[] primvars:{} = ", type, namespaced), attribute.values, {components, components},
             metadata);
 }
 

@@ -144,22 +144,4 @@ std::string usd_asset(std::string_view path) {
 
 std::string usd_number(double value) { return fmt::format("{}", static_cast<float>(value)); }
 
-std::string usd_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    const bool digit = c >= '0' && c <= '9';
-    if (digit && name.empty()) name += '_';
-    name += letter || digit ? c : '_';
-  }
-  return name.empty() ? "_" : name;
-}
-
-std::string UsdNames::unique(std::string_view text) {
-  const std::string name = usd_name(text);
-  std::string result = name;
-  for (int i = 2; !used_.insert(result).second; ++i) result = fmt::format("{}_{}", name, i);
-  return result;
-}
-
 }  // namespace pelage

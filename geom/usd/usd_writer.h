@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,17 +64,5 @@ std::string usd_string(std::string_view text);
 std::string usd_asset(std::string_view path);
 /// Returns the shortest text of a number.
 std::string usd_number(double value);
-/// Returns a name with _ in place of the characters that names of prims cannot have.
-std::string usd_name(std::string_view text);
-
-/// Gives names to prims of one parent: no two are equal.
-class UsdNames {
- public:
-  /// Returns usd_name(text), with a number behind it if an earlier call returned this name.
-  std::string unique(std::string_view text);
-
- private:
-  std::set<std::string, std::less<>> used_;
-};
 
 }  // namespace pelage

@@ -82,8 +82,24 @@ TEST(InfoMemory, FilesThatNeedMoreAreRefusedInOneLine) {
         EXPECT_EQ(error.kind(), ErrorKind::kMemory);
         EXPECT_EQ(error.problems().size(), 1u);
         EXPECT_NE(std::string(error.what()).find("--memory"), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find("render.memory"), std::string::npos) << error.what();
       }
     }
+  }
+}
+
+TEST(InfoMemory, OnlySceneFilesHaveValuesToSet) {
+  const TemporaryFolder folder;
+  const std::string mesh = (folder.path() / "a.obj").string();
+  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::optional<Options> options =
+      parse_options({"info", mesh, "--set", "render.memory=1G"}, std::cout);
+  ASSERT_TRUE(options);
+  try {
+    run_info(*options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "--set works on scene files only");
   }
 }
 

@@ -2,6 +2,7 @@
 """A Slurm of one node for tests: its configuration, its daemons and its queue. Needs root."""
 import os
 import pathlib
+import random
 import shutil
 import signal
 import socket
@@ -37,18 +38,24 @@ SchedulerParameters=batch_sched_delay=0,sched_min_interval=200000
 ReturnToService=2
 MpiDefault=none
 MailProg=/bin/true
-KillWait=5
+KillWait=600
+MessageTimeout=100
 NodeName=%(host)s NodeAddr=127.0.0.1 CPUs=4 RealMemory=8000 State=UNKNOWN
 PartitionName=main Nodes=%(host)s Default=YES MaxTime=INFINITE State=UP
 """
 
 
-def free_ports():
-    """Two ports of this machine that nobody uses."""
-    with socket.socket() as a, socket.socket() as b:
-        a.bind(("127.0.0.1", 0))
-        b.bind(("127.0.0.1", 0))
-        return a.getsockname()[1], b.getsockname()[1]
+def free_ports(count):
+    """Ports of this machine that nobody uses, and that the kernel gives to nobody who asks for any port."""
+    first_of_kernel = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
+    found = []
+    for port in random.sample(range(first_of_kernel // 2, first_of_kernel), 1000):
+        with socket.socket() as tried:
+            if tried.connect_ex(("127.0.0.1", port)) != 0:
+                found.append(port)
+        if len(found) == count:
+            return found
+    raise AssertionError("no free ports")
 
 
 class Slurm:
@@ -62,7 +69,7 @@ class Slurm:
         key.write_bytes(os.urandom(1024))
         key.chmod(0o400)
         host = os.uname().nodename.split(".")[0]
-        controller, node = free_ports()
+        controller, node = free_ports(2)
         config = folder / "slurm.conf"
         config.write_text(CONFIG % {"host": host, "controller": controller, "node": node, "folder": folder})
         self.environment = {**os.environ, "SLURM_CONF": str(config)}

@@ -43,7 +43,7 @@ class PageTest(ViewTest):
         self.addCleanup(browser.quit)
         return browser
 
-    def until(self, holds, seconds=60):
+    def until(self, holds, seconds=240):
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             if holds():

@@ -25,7 +25,7 @@ class ViewTest(ProgramTest):
 
     def get(self, page, headers=None, token=None, **values):
         """Status and body."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=240)
         values["token"] = self.token if token is None else token
         connection.request("GET", f"/{page}?{urllib.parse.urlencode(values)}", headers=headers or {})
         answer = connection.getresponse()
@@ -35,7 +35,7 @@ class ViewTest(ProgramTest):
 
     def post(self, page, body, headers=None, token=None):
         """Status and answer. `body`: bytes, or values for JSON."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=240)
         data = body if isinstance(body, bytes) else json.dumps(body).encode()
         query = urllib.parse.urlencode({"token": self.token if token is None else token})
         connection.request("POST", f"/{page}?{query}", data, {"Content-Type": "application/json", **(headers or {})})
@@ -49,7 +49,7 @@ class ViewTest(ProgramTest):
         self.assertEqual(status, 200)
         return json.loads(body)
 
-    def wait(self, holds, seconds=60):
+    def wait(self, holds, seconds=240):
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             state = self.state()

@@ -122,7 +122,10 @@ export class LightTool {
     for (const map of [this.moved, this.waiting]) map.set(name, {...map.get(name), ...values});
     this.view.canvas.draw();
     this.follow();
+    this.tellWhetherItWaits();
   }
+
+  tellWhetherItWaits() { document.body.dataset.light_waits = this.waits > 0 || this.waiting.size > 0; }
 
   // Sends changes once the picture of the last ones is there.
   async follow() {
@@ -157,7 +160,7 @@ export class LightTool {
     }
     element("rig_text").disabled = element("rig_reset").disabled = !lights_changed;
     document.body.dataset.light = this.selected ?? "";
-    document.body.dataset.light_waits = this.waits > 0 || this.waiting.size > 0;
+    this.tellWhetherItWaits();
     if (this.open) this.view.canvas.draw();
   }
 

@@ -23,9 +23,11 @@ def area_of(ob: bpy.types.Object, context: bpy.types.Context) -> float:
     """Area of a mesh with its modifiers, in square units of the world."""
     evaluated = ob.evaluated_get(context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
-    areas = np.empty(len(mesh.polygons), np.float32)
-    mesh.polygons.foreach_get("area", areas)
-    evaluated.to_mesh_clear()
+    try:
+        areas = np.empty(len(mesh.polygons), np.float32)
+        mesh.polygons.foreach_get("area", areas)
+    finally:
+        evaluated.to_mesh_clear()
     scale = abs(np.linalg.det(np.array(ob.matrix_world)[:3, :3])) ** (1 / 3)
     return float(areas.sum()) * scale**2
 

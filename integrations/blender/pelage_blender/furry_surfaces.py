@@ -9,9 +9,9 @@ import numpy as np
 
 from . import groom
 from .axes import to_pelage, transformed
-from .collect import Asset, Hair, Item
 from .placement import Placement, placement_of
 from .scene_document import Block, SceneDocument
+from .stage import Asset, Hair, Item
 from .surfaces import slot_groups
 
 Space = Callable[[np.ndarray, int], np.ndarray]

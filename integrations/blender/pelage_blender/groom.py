@@ -16,7 +16,7 @@ from .images import image_file
 from .placement import mirror, signed_scale
 
 if TYPE_CHECKING:
-    from .collect import Item
+    from .stage import Item
     from .scene_document import SceneDocument
 
 CHANNELS = "rgb"

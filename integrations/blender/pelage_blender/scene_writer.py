@@ -9,7 +9,7 @@ import bpy
 from . import exr
 from .axes import spot_image, to_pelage
 from .camera import scene_camera
-from .collect import Hair, Stage, add_pose, collect
+from .collect import add_pose, collect
 from .furry_surfaces import FurWriter
 from .lights import world_block
 from .scene_document import Block, SceneDocument
@@ -17,6 +17,7 @@ from .scene_folder import SceneFolder
 from .scene_json import document_text
 from .settings import render_block
 from .shutter import moving, shutter_times, visit
+from .stage import Hair, Stage
 from .surfaces import SurfaceWriter
 
 

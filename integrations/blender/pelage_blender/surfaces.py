@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from .cage import Cage, Placed, faces_of_slot, merged
-from .collect import Asset, Item
 from .placement import Placement, placement_of
 from .scene_document import Block, Groups, SceneDocument
+from .stage import Asset, Item
 
 SHARED_FACES = 32
 """Number of faces from which on the instances of a mesh share it. A skin takes 8 KB beside its triangles, so instances of smaller
