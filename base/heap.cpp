@@ -28,10 +28,15 @@ void keep_spare_heap(size_t limit, int threads) {
 #if defined(__GLIBC__)
   constexpr size_t kMost = size_t{16} << 20,
                    kLeast = size_t{128} << 10;  // the least is the library's default
-  if (limit != 0 && limit < size_t{1} << 30) return;
+  if (limit != 0 && limit < size_t{1} << 30) {
+    keep_heap_small();
+    mallopt(M_TOP_PAD, static_cast<int>(kLeast));
+    return;
+  }
   // The main thread has a heap, too.
   const size_t share = limit == 0 ? kMost : limit / 40 / static_cast<size_t>(threads + 1);
   mallopt(M_TOP_PAD, static_cast<int>(std::clamp(share, kLeast, kMost)));
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #else
   (void)limit, (void)threads;
 #endif

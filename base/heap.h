@@ -14,11 +14,11 @@ inline constexpr size_t kHeapPages = 6 * 1024;
 /// free blocks of similar size, such as the trees of chunks. Call once, before threads are started.
 void keep_heap_small();
 
-/// Lets the heap of each thread grow in steps of up to 16 MiB, and keep as much freed memory at its end.
-/// Blocks that fit there need no pages of their own, whatever their size. Threads that grow strands free and
-/// allocate megabytes many times a second, and new pages cost as much time as some operators. All heaps
+/// Lets the heap of each thread keep blocks of up to 1 MiB, grow in steps of up to 16 MiB, and keep as much
+/// freed memory at its end. Threads that grow strands allocate and free megabytes many times a second. To
+/// give pages back and get new ones interrupts all threads, and takes more time than growth itself. All heaps
 /// together keep at most a fortieth of `limit`, the max of memory in bytes, but each may keep 128 KiB; 0: no
-/// limit. Has no effect with a limit below 1 GiB. Call once, after keep_heap_small(). Measured:
+/// limit. With a limit below 1 GiB, the heap is kept small as after keep_heap_small(). Measured:
 /// docs/lab/ACCEL.md, waste of the heap.
 void keep_spare_heap(size_t limit, int threads);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/heap.h"
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
@@ -279,6 +280,7 @@ int run_grow(const Options& options) {
       check_replaces_none("-o", frame_file_name(options.output, frame), scene.files);
     prepare_output(frame_file_name(options.output, frames.front()));
   }
+  keep_spare_heap(scene.render.memory.bytes, run.workers().thread_count());
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // Opening, filling and growing caches is a separate stage.
   double cache_s = 0;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/heap.h"
 #include "base/job.h"
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_watch.h"
@@ -216,6 +217,7 @@ void LiveRenderer::load(const SceneEdit& edit, Redo redo, const Job& job) {
   loaded_->world = nullptr;
   if (redo == Redo::kAssets) {
     progress_.begin("read", 1);
+    keep_spare_heap(edit.scene.render.memory.bytes, job.workers.thread_count());
     const MemoryCharge film = reserve_film(edit.scene, job);
     update_assets(edit.scene, job, loaded_->assets);
     progress_.end();
