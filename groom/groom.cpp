@@ -189,9 +189,8 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
     }
   }
   if (params.dynamics) {
-    const auto strands = static_cast<int64_t>(impl->source.follicles().size());
-    const int64_t guides = params.dynamics->guides.value_or(std::clamp<int64_t>(strands / 100, 50, 2000));
-    impl->guides->place(static_cast<size_t>(guides), impl->source.follicles(), *impl->source.rest);
+    const FollicleTree& coat = impl->source.follicles();
+    impl->guides->place(params.dynamics->guide_count(coat.size()), coat, *impl->source.rest);
   }
   if (impl->source.rest) stack.warn_of_missed(*impl->source.rest, impl->source.follicles(), context);
   const size_t guide_bytes = impl->guides ? impl->guides->roots.bytes() : 0;

@@ -132,9 +132,9 @@ size_t follow_place(const DynamicsParams& params, const OperatorList& list) {
 OperatorList::Item follow_item(const DynamicsParams& params, std::shared_ptr<const MovingGuides> guides) {
   OperatorList::Item item;
   item.name = Follow::kName;
-  item.prototype =
-      std::make_shared<const Follow>(params.neighbours, std::move(guides),
-                                     params.guides ? std::to_string(*params.guides) : "one in a hundred");
+  item.prototype = std::make_shared<const Follow>(
+      params.neighbours, std::move(guides),
+      params.guides ? std::to_string(*params.guides) : params.default_guides());
   item.clone = [](const Operator& op) -> std::unique_ptr<Operator> {
     return std::make_unique<Follow>(static_cast<const Follow&>(op));
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/sim/dynamics_params.h"
 
+#include <algorithm>
+
 namespace pelage {
 
 namespace {
@@ -42,6 +44,16 @@ void add_time(Schema<DynamicsParams>& s) {
 
 }  // namespace
 
+size_t DynamicsParams::guide_count(size_t strands) const {
+  if (guides) return static_cast<size_t>(*guides);
+  return mode == DynamicsMode::kKinematic ? std::clamp<size_t>(strands / 400, 50, 500)
+                                          : std::clamp<size_t>(strands / 100, 50, 2000);
+}
+
+std::string DynamicsParams::default_guides() const {
+  return mode == DynamicsMode::kKinematic ? "one in 400" : "one in a hundred";
+}
+
 const Schema<DynamicsParams>& DynamicsParams::schema() {
   static const Schema<DynamicsParams> table = [] {
     Schema<DynamicsParams> s(
@@ -62,10 +74,10 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
                  "damped springs, as `sway_frequency` and `sway_damping` say; all other keys but `guides`, "
                  "`neighbours` and `after` have no effect. Needs no simulation, also for crowds"});
     s.key("guides", &DynamicsParams::guides,
-          {.help = "Number of strands that are simulated: those that level of detail keeps longest",
+          {.help = "Number of strands whose motion is computed: those that level of detail keeps longest",
            .min = 1,
            .max = 100000,
-           .default_text = "one strand in a hundred, from 50 to 2000"});
+           .default_text = "one strand in 100, from 50 to 2000; `kinematic`: one in 400, from 50 to 500"});
     s.key("neighbours", &DynamicsParams::neighbours,
           {.help = "Number of guides that turn a strand", .min = 1, .max = 8});
     s.key("after", &DynamicsParams::after,

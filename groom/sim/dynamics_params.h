@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/value_readers.h"
@@ -40,6 +42,12 @@ struct DynamicsParams {
   int preroll = 8;
   AssetPath directory{"cache", {}};
   static const Schema<DynamicsParams>& schema();
+
+  /// Number of guides of a coat with so many strands. Sway follows the skin, which varies slowly across a
+  /// coat, and each animal of a crowd has turns of its own, so fewer guides suffice for it.
+  size_t guide_count(size_t strands) const;
+  /// How many guides a coat has by default, in words.
+  std::string default_guides() const;
 
   RodMaterial material(double radius) const {
     return {.density = density,
