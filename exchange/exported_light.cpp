@@ -26,6 +26,24 @@ double area_of(const ControlMesh& mesh) {
   return area;
 }
 
+/// What limits the directions of a light and is not exported, in the plural; empty: nothing.
+std::string lost_shaping(const LightParams& params) {
+  return std::visit(
+      [](const auto& p) -> std::string {
+        if constexpr (requires { p.barn_doors; }) {
+          if (p.barn_doors) return "its barn doors";
+        }
+        if constexpr (requires { p.spread; }) {
+          if (p.spread < 180) return "the limits of its spread";
+        }
+        if constexpr (requires { p.profile; }) {
+          if (!p.profile.empty()) return "the intensities of its profile";
+        }
+        return {};
+      },
+      params);
+}
+
 struct ExportedLightOf {
   const std::string& name;
   double frame;
@@ -119,6 +137,8 @@ std::vector<ExportedLight> exported_lights(const SceneDescription& scene, double
       notes.add("light '" + name + "'", "the camera sees it");
     const auto& emission =
         std::visit([](const LightEmission& p) -> const LightEmission& { return p; }, params);
+    if (const std::string lost = lost_shaping(params); !lost.empty())
+      notes.add("light '" + name + "'", lost + " are lost: it shines in more directions");
     if (emission.illuminates || emission.shadowed_by)
       notes.add("light '" + name + "'", "it illuminates everything, and everything casts a shadow in it");
   }

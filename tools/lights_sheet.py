@@ -48,6 +48,11 @@ LIGHTS = [
     "{type: spot, position: [-2, 6, 2], look_at: [0, 0.3, 0], power: 4500, cone: 26, file: GOBO}",
     "{type: sun, direction: [2, -1.1, -0.6], irradiance: 3.5, temperature: 5000}",
     "{type: mesh, file: TUBES, power: 220, temperature: 9000}",
+    "{type: rectangle, position: [-4, 5, 3], look_at: [0, 0.3, 0], size: [0.5, 0.5], spread: 14, power: 4}",
+    "{type: rectangle, position: [-2.4, 3, 1.8], look_at: [0, 0.3, 0], size: [0.6, 0.6], power: 330, "
+    "barn_doors: {length: 1, left: -5, right: -5, top: 60, bottom: 60}}",
+    "{type: point, position: [0, 1.75, 0], profile: PROFILE, power: 14, temperature: 3000}",
+    "{type: environment, file: SKY, rotate: [0, 60, 0], intensity: 1, visible: false}",
 ]
 
 ROOM = """pelage: 1
@@ -111,8 +116,25 @@ def write_tubes(path):
     path.write_text("\n".join(lines) + "\n")
 
 
+def write_profile(path):
+    """A luminaire with a narrow bright beam and a ring around it."""
+    angles = [0, 8, 12, 20, 30, 36, 42, 48, 90]
+    candela = [1000, 1000, 300, 60, 40, 400, 400, 40, 0]
+    numbers = [1, -1, 1, len(angles), 1, 1, 2, 0, 0, 0, 1, 1, 50, *angles, 0, *candela]
+    path.write_text("IESNA:LM-63-1995\nTILT=NONE\n" + "\n".join(map(str, numbers)) + "\n")
+
+
+def write_sky(path):
+    """A blue sky with an orange glow at the centre column, above a dark ground, in linear colours."""
+    half = ["oiiotool", "--pattern", "fill:topleft=0.1,0.15,0.3:topright=0.1,0.15,0.3:bottomleft=0.5,0.6,0.75:bottomright=0.5,0.6,0.75",
+            "128x32", "3", "--pattern", "fill:color=0.1,0.09,0.08", "128x32", "3", "--mosaic", "1x2"]
+    glow = ["--create", "128x64", "3", "--box:color=1,0.85,0.6:fill=1", "52,16,76,30", "--blur", "9x9"]
+    subprocess.run([*half, *glow, "--mulc", "6", "--add", "-d", "float", "-o", path], check=True)
+
+
 def render(pelage, text, folder, name):
-    for key, value in {"GOBO": "gobo.png", "TUBES": "tubes.obj", "ROOM": "room.obj"}.items():
+    files = {"GOBO": "gobo.png", "TUBES": "tubes.obj", "ROOM": "room.obj", "PROFILE": "lamp.ies", "SKY": "sky.exr"}
+    for key, value in files.items():
         text = text.replace(key, str(folder / value))
     (folder / "scene.yaml").write_text(text)
     subprocess.run([pelage, "render", folder / "scene.yaml", "-o", folder / (name + ".exr"), "--quiet"], check=True)
@@ -132,6 +154,8 @@ def main(pelage):
         folder = pathlib.Path(name)
         write_room(folder / "room.obj")
         write_tubes(folder / "tubes.obj")
+        write_profile(folder / "lamp.ies")
+        write_sky(folder / "sky.exr")
         subprocess.run(["oiiotool", "--pattern", "checker:width=32:height=256:color1=0.02,0.02,0.02:color2=1,1,1",
                         "256x256", "3", "-d", "uint8", "-o", folder / "gobo.png"], check=True)
         lights = [render(pelage, COAT.format(size=SIZE, examples=ROOT / "examples", light=light), folder, f"light{i}")

@@ -22,9 +22,11 @@ template <class Params>
 std::map<std::string, std::vector<double>> values_of(const Params& light, double frame) {
   std::map<std::string, std::vector<double>> values;
   if constexpr (requires { light.position; }) values["position"] = list(light.position.at(frame));
-  if constexpr (requires { light.look_at; }) values["look_at"] = list(light.look_at.at(frame));
+  // Not of a point, whose aim only turns its profile, and which may have none.
+  constexpr bool is_aimed = requires { light.look_at.at(frame); };
+  if constexpr (is_aimed) values["look_at"] = list(light.look_at.at(frame));
   if constexpr (requires { light.direction; }) values["direction"] = list(light.direction.at(frame));
-  if constexpr (requires { light.up; }) values["up"] = list(light.up);
+  if constexpr (is_aimed && requires { light.up; }) values["up"] = list(light.up);
   if constexpr (requires { light.radius; }) values["radius"] = {double{light.radius}};
   if constexpr (requires { light.cone; }) values["cone"] = {double{light.cone}};
   if constexpr (requires { light.angle; }) values["angle"] = {double{light.angle}};

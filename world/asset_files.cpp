@@ -43,6 +43,7 @@ std::vector<std::filesystem::path> asset_files(const SceneDescription& scene) {
     std::visit(
         [&](const auto& params) {
           if constexpr (requires { params.file; }) add(params.file);
+          if constexpr (requires { params.profile; }) add(params.profile);
         },
         light.value);
   }

@@ -8,12 +8,13 @@
 namespace pelage {
 
 DiskLight::DiskLight(std::string name, const V3f& center, const V3f& normal, float radius,
-                     const Rgb& radiance, bool visible)
+                     const Rgb& radiance, bool visible, const SpreadGrid& grid)
     : Light(std::move(name), visible),
       center_(center),
       normal_(normal),
       radius_(radius),
-      radiance_(radiance) {
+      radiance_(radiance),
+      grid_(grid) {
   complete_frame(normal_, x_, y_);
 }
 
@@ -43,7 +44,9 @@ std::optional<LightSample> DiskLight::sample(const V3f& from, const V2f& u) cons
   const float distance = to.length();
   const float pdf = near ? static_cast<float>(seen.pdf(distance))
                          : distance * distance * distance / (height * kPi * radius_ * radius_);
-  return LightSample{to / distance, distance, radiance_, pdf, normal_};
+  const float passed = grid_.factor(height / distance);
+  if (!(passed > 0)) return std::nullopt;
+  return LightSample{to / distance, distance, radiance_ * passed, pdf, normal_};
 }
 
 float DiskLight::pdf(const V3f& from, const V3f& direction) const {
@@ -61,7 +64,9 @@ std::optional<LightHit> DiskLight::intersect(const V3f& from, const V3f& directi
   if (!(height > 0) || !(descent > 0)) return std::nullopt;
   const float distance = height / descent;
   if (!((from_center + distance * direction).length2() <= radius_ * radius_)) return std::nullopt;
-  return LightHit{distance, radiance_, normal_};
+  const float passed = grid_.factor(descent);
+  if (!(passed > 0)) return std::nullopt;
+  return LightHit{distance, radiance_ * passed, normal_};
 }
 
 float DiskLight::importance(const V3f& from) const {

@@ -16,8 +16,22 @@ const KeyOptions kPower{.unit = "W, with lengths in scene units",
                             "area, and `radiance` multiplies it",
                         .min = 0};
 const KeyOptions kLampPower{.unit = "W, with lengths in scene units",
-                            .help = "Radiant power of the whole sphere in each colour channel",
-                            .min = 0};
+                            .help =
+                                "Radiant power of the whole sphere in each colour channel, also with a "
+                                "profile, which only distributes it",
+                            .min = 0,
+                            .default_text = "100, or as `profile` states"};
+const KeyOptions kProfile{.help =
+                              "Photometric file of a luminaire (IES, LM-63, type C): how brightly it "
+                              "shines in each direction. Without `power`, also how brightly altogether: "
+                              "its lumens / 177.83 lm/W",
+                          .default_text = "none"};
+const KeyOptions kSpread{.unit = "degrees",
+                         .help =
+                             "Whole angle beyond which a grid in front of the light, as on a softbox, lets "
+                             "no light pass. With `power`, a smaller spread makes the middle brighter",
+                         .min = 1,
+                         .max = 180};
 const KeyOptions kSmallRadius{.unit = "scene units",
                               .help = "Radius; it changes the sharpness of shadows, not the brightness",
                               .min = 0,
@@ -50,6 +64,9 @@ const Schema<RectangleLightParams>& RectangleLightParams::schema() {
     s.key("file", &RectangleLightParams::file,
           {.help = "Image that multiplies the radiance, upright as seen from the emitting side",
            .default_text = "none"});
+    s.key("spread", &RectangleLightParams::spread, kSpread);
+    s.key("barn_doors", &RectangleLightParams::barn_doors,
+          {.help = "Flaps at the sides; they cut light off and do not make the rest brighter"});
     add_emission_keys(s, kRadiance, kRadianceUnit);
     return s;
   }();
@@ -66,6 +83,7 @@ const Schema<DiskLightParams>& DiskLightParams::schema() {
     s.key("radius", &DiskLightParams::radius,
           {.unit = "scene units", .help = "Radius", .min = 0, .above_min = true});
     s.key("power", &DiskLightParams::power, kPower);
+    s.key("spread", &DiskLightParams::spread, kSpread);
     add_emission_keys(s, kRadiance, kRadianceUnit);
     return s;
   }();
@@ -94,13 +112,22 @@ const Schema<PointLightParams>& PointLightParams::schema() {
   static const Schema<PointLightParams> table = [] {
     Schema<PointLightParams> s(
         "point",
-        "A small lamp that emits in all directions: a sphere whose brightness does not "
-        "depend on its radius.");
+        "A small lamp that emits in all directions, equally or by a profile: a sphere whose brightness does "
+        "not depend on its radius.");
     s.set_example(R"(lights:
-  bulb: {type: point, position: [0, 3, 2], power: 300, temperature: 2700})");
+  bulb: {type: point, position: [0, 3, 2], power: 300, temperature: 2700}
+  downlight: {type: point, position: [0, 5, 0], profile: downlight.ies, power: 800})");
     s.key("position", &PointLightParams::position, {.unit = "scene units", .help = "Centre"});
+    s.key("look_at", &PointLightParams::look_at,
+          {.unit = "scene units",
+           .help = "Point in the direction of the profile's vertical angle 0",
+           .default_text = "straight down"});
+    s.key("up", &PointLightParams::up,
+          {.help = "Up vector of the profile: its horizontal angle 180, and 90 is at the left, as seen from "
+                   "behind the lamp. If the lamp points along it, -z takes its place"});
     s.key("radius", &PointLightParams::radius, kSmallRadius);
     s.key("power", &PointLightParams::power, kLampPower);
+    s.key("profile", &PointLightParams::profile, kProfile);
     add_emission_keys(s, kColor);
     return s;
   }();
@@ -118,7 +145,8 @@ const Schema<SpotLightParams>& SpotLightParams::schema() {
     s.key("position", &SpotLightParams::position, {.unit = "scene units", .help = "Centre of the lamp"});
     s.key("look_at", &SpotLightParams::look_at,
           {.unit = "scene units", .help = "Point on the axis of the cone"});
-    s.key("up", &SpotLightParams::up, {.help = "Up vector of the image in `file`"});
+    s.key("up", &SpotLightParams::up,
+          {.help = "Up vector of the image in `file`, and of the profile as for a point"});
     s.key("radius", &SpotLightParams::radius, kSmallRadius);
     s.key("power", &SpotLightParams::power, kLampPower);
     s.key("cone", &SpotLightParams::cone,
@@ -129,6 +157,7 @@ const Schema<SpotLightParams>& SpotLightParams::schema() {
     s.key("file", &SpotLightParams::file,
           {.help = "Image that the spot projects (a gobo); its square fits around the cone",
            .default_text = "none"});
+    s.key("profile", &SpotLightParams::profile, kProfile);
     add_emission_keys(s, kColor);
     return s;
   }();

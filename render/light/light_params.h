@@ -9,8 +9,10 @@
 #include "base/ledger.h"
 #include "base/value_readers.h"
 #include "geom/io/file_transform.h"
+#include "render/light/ies_file.h"
 #include "render/light/light.h"
 #include "render/light/light_emission.h"
+#include "render/light/panel_shape.h"
 
 namespace pelage {
 
@@ -28,7 +30,9 @@ struct RectangleLightParams : LightEmission {
   V2f size{1, 1};              ///< width, height
   std::optional<float> power;  ///< W
   bool two_sided = false;
-  AssetPath file;  ///< image, a factor of the radiance; empty: 1
+  AssetPath file;      ///< image, a factor of the radiance; empty: 1
+  float spread = 180;  ///< SpreadGrid
+  std::optional<BarnDoors> barn_doors;
   float unit_radiance() const;
   static const Schema<RectangleLightParams>& schema();
 };
@@ -39,6 +43,7 @@ struct DiskLightParams : LightEmission {
   Keyed<V3f> look_at{V3f(0, 0, -1)};  ///< the emitting side faces this point
   float radius = 0.5f;
   std::optional<float> power;  ///< W
+  float spread = 180;          ///< SpreadGrid
   float unit_radiance() const;
   static const Schema<DiskLightParams>& schema();
 };
@@ -56,8 +61,12 @@ struct PointLightParams : LightEmission {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "point";
   Keyed<V3f> position{V3f(0)};
+  std::optional<Keyed<V3f>> look_at;  ///< on the axis of the profile; empty: straight down
+  V3f up{0, 1, 0};                    ///< of the profile
   float radius = 0.05f;
-  float power = 100;  ///< W
+  std::optional<float> power;  ///< W; empty: 100, or as the profile states
+  AssetPath profile;           ///< SpotCone::profile; empty: none
+  /// May read the profile, and throws Error (kInput) as read_ies() does.
   float unit_radiance() const;
   static const Schema<PointLightParams>& schema();
 };
@@ -67,13 +76,14 @@ struct SpotLightParams : LightEmission {
   static constexpr const char* kTypeName = "spot";
   Keyed<V3f> position{V3f(0)};
   Keyed<V3f> look_at{V3f(0, 0, -1)};
-  V3f up{0, 1, 0};  ///< of the gobo
+  V3f up{0, 1, 0};  ///< of the gobo and the profile
   float radius = 0.05f;
-  float power = 100;      ///< W, of the lamp without its cone
-  float cone = 40;        ///< whole angle in degrees
-  float softness = 0.2f;  ///< SpotCone::softness
-  AssetPath file;         ///< SpotCone::gobo; empty: none
-  float unit_radiance() const;
+  std::optional<float> power;   ///< W, of the lamp without its cone; empty: 100, or as the profile states
+  float cone = 40;              ///< whole angle in degrees
+  float softness = 0.2f;        ///< SpotCone::softness
+  AssetPath file;               ///< SpotCone::gobo; empty: none
+  AssetPath profile;            ///< SpotCone::profile; empty: none
+  float unit_radiance() const;  ///< as that of a point
   static const Schema<SpotLightParams>& schema();
 };
 struct SunLightParams : LightEmission {
@@ -107,8 +117,13 @@ struct EnvironmentLightParams : LightEmission {
 using LightParams = std::variant<RectangleLightParams, DiskLightParams, SphereLightParams, PointLightParams,
                                  SpotLightParams, SunLightParams, MeshLightParams, EnvironmentLightParams>;
 
+/// Reads the profile of a point or a spot. Throws Error (kInput) as read_ies() does, at the place of the
+/// scene if the file cannot be read.
+IesPhotometry read_profile(const AssetPath& file);
+
 /// Makes a light with its parameters at `frame`. `origin`: RenderScene::origin. Does not resolve the names of
-/// characters and coats. Throws Error (kInput) for missing images, and for directions of length 0.
+/// characters and coats. Throws Error (kInput) for missing images and
+/// profiles, and for directions of length 0.
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
                                   TextureLibrary& textures, MemoryLedger& ledger, const V3f& origin = V3f(0));
 

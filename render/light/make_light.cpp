@@ -36,6 +36,11 @@ constexpr float kRadians = std::numbers::pi_v<float> / 180;
 float radiance_of(const std::optional<float>& power, float area) { return power ? *power / (kPi * area) : 1; }
 float sphere_area(float radius) { return 4 * kPi * radius * radius; }
 
+float lamp_power(const std::optional<float>& power, const AssetPath& profile) {
+  if (power) return *power;
+  return profile.empty() ? 100.0f : LightProfile(read_profile(profile)).watts();
+}
+
 std::vector<MeshLight::Triangle> triangles_of(ControlMesh cage, const M44f& to_scene) {
   transform_cage(to_scene, cage);
   std::vector<MeshLight::Triangle> triangles;
@@ -71,12 +76,14 @@ struct LightMaker {
   std::unique_ptr<Light> operator()(const RectangleLightParams& p) const {
     const Aim axes = facing(p, p.up);
     const Rectangle shape{center(p), axes.x, axes.y, p.size * 0.5f};
-    return std::make_unique<RectangleLight>(name, shape, radiance(p), p.two_sided, p.visible, image(p.file));
+    return std::make_unique<RectangleLight>(
+        name, shape, radiance(p), p.two_sided, p.visible,
+        RectangleShaping{image(p.file), SpreadGrid(p.spread), p.barn_doors.value_or(BarnDoors())});
   }
 
   std::unique_ptr<Light> operator()(const DiskLightParams& p) const {
     return std::make_unique<DiskLight>(name, center(p), facing(p, V3f(0, 1, 0)).z, p.radius, radiance(p),
-                                       p.visible);
+                                       p.visible, SpreadGrid(p.spread));
   }
 
   std::unique_ptr<Light> operator()(const SphereLightParams& p) const {
@@ -84,12 +91,18 @@ struct LightMaker {
   }
 
   std::unique_ptr<Light> operator()(const PointLightParams& p) const {
+    if (!p.profile.empty()) {
+      const Aim axes = lamp_axes(p);
+      SpotCone all{-axes.x, axes.y, axes.z, kPi, 0, nullptr, profile(p.profile)};
+      return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(all), radiance(p), p.visible);
+    }
     return std::make_unique<SphereLight>(name, center(p), p.radius, radiance(p), p.visible);
   }
 
   std::unique_ptr<Light> operator()(const SpotLightParams& p) const {
     const Aim axes = facing(p, p.up);
-    SpotCone cone{-axes.x, axes.y, axes.z, 0.5f * p.cone * kRadians, p.softness, image(p.file)};
+    SpotCone cone{-axes.x,           axes.y, axes.z, 0.5f * p.cone * kRadians, p.softness, image(p.file),
+                  profile(p.profile)};
     return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(cone), radiance(p), p.visible);
   }
 
@@ -145,6 +158,25 @@ struct LightMaker {
     return *aim;
   }
 
+  /// The axes of the profile of a point.
+  Aim lamp_axes(const PointLightParams& p) const {
+    const V3f at = center(p);
+    const V3f to = p.look_at ? relative_to(*p.look_at, origin).at(frame) : at - V3f(0, 1, 0);
+    const V3f forward = to - at;
+    const bool along_up = !(p.up.cross(forward).length() > 1e-6f * p.up.length() * forward.length());
+    const std::optional<Aim> aim = Aim::at(at, to, along_up ? V3f(0, 0, -1) : p.up);
+    if (!aim) refuse("position and look_at are the same point");
+    return *aim;
+  }
+
+  std::shared_ptr<const LightProfile> profile(const AssetPath& file) const {
+    if (file.empty()) return nullptr;
+    IesPhotometry ies = read_profile(file);
+    MemoryCharge charge =
+        reserve(ledger, MemoryTag::kTextures, LightProfile::bytes(ies), "the profile of the light " + name);
+    return std::make_shared<const LightProfile>(std::move(ies), std::move(charge));
+  }
+
   template <class Params>
   Rgb radiance(const Params& p) const {
     return p.color() * (p.strength(frame) * p.unit_radiance());
@@ -158,13 +190,27 @@ struct LightMaker {
 
 }  // namespace
 
-float RectangleLightParams::unit_radiance() const {
-  return radiance_of(power, (two_sided ? 2.0f : 1.0f) * size.x * size.y);
+IesPhotometry read_profile(const AssetPath& file) {
+  return with_place_of(file, [&] {
+    if (file.data) throw Error(ErrorKind::kInput, "a profile must be a file");
+    return read_ies(file.path);
+  });
 }
-float DiskLightParams::unit_radiance() const { return radiance_of(power, kPi * radius * radius); }
+
+float RectangleLightParams::unit_radiance() const {
+  const float area = (two_sided ? 2.0f : 1.0f) * size.x * size.y;
+  return radiance_of(power, area * static_cast<float>(SpreadGrid(spread).passed()));
+}
+float DiskLightParams::unit_radiance() const {
+  return radiance_of(power, kPi * radius * radius * static_cast<float>(SpreadGrid(spread).passed()));
+}
 float SphereLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
-float PointLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
-float SpotLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
+float PointLightParams::unit_radiance() const {
+  return radiance_of(lamp_power(power, profile), sphere_area(radius));
+}
+float SpotLightParams::unit_radiance() const {
+  return radiance_of(lamp_power(power, profile), sphere_area(radius));
+}
 float SunLightParams::unit_radiance() const {
   const double sine = std::sin(0.5 * double{angle} * kRadians);
   return irradiance ? static_cast<float>(*irradiance / (std::numbers::pi * sine * sine)) : 1.0f;

@@ -33,15 +33,25 @@ Rgb mean_color(const Texture& image) {
 }  // namespace
 
 RectangleLight::RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided,
-                               bool visible, std::shared_ptr<const Texture> image)
+                               bool visible, RectangleShaping shaping)
     : Light(std::move(name), visible),
       shape_(shape),
       normal_(shape.x.cross(shape.y)),
       radiance_(radiance),
       luminance_(luminance(radiance)),
       two_sided_(two_sided),
-      image_(std::move(image)) {
-  if (image_) luminance_ = luminance(radiance * mean_color(*image_));
+      shaping_(std::move(shaping)) {
+  if (shaping_.image) luminance_ = luminance(radiance * mean_color(*shaping_.image));
+}
+
+std::optional<Rgb> RectangleLight::radiance_at(const V2f& place, const V3f& direction) const {
+  const V3f out(-direction.dot(shape_.x), -direction.dot(shape_.y), std::abs(direction.dot(normal_)));
+  const float passed = shaping_.grid.factor(out.z);
+  if (!(passed > 0) || !shaping_.doors.pass(place, shape_.half_size, out)) return std::nullopt;
+  if (!shaping_.image) return radiance_ * passed;
+  return radiance_ * passed *
+         shaping_.image->color(0.5f + 0.5f * place.x / shape_.half_size.x,
+                               0.5f + 0.5f * place.y / shape_.half_size.y);
 }
 
 double RectangleLight::solid_angle(const V3f& from) const {
@@ -58,8 +68,10 @@ std::optional<LightSample> RectangleLight::sample(const V3f& from, const V2f& u)
   const V3f y = static_cast<float>(local.y / distance) * shape_.y;
   const V3f z = static_cast<float>(local.z / distance) * normal_;
   const V3f on_plane = from - shape_.center + static_cast<float>(distance) * (x + y + z);
-  const V2f place(on_plane.dot(shape_.x) / shape_.half_size.x, on_plane.dot(shape_.y) / shape_.half_size.y);
-  return LightSample{x + y + z, static_cast<float>(distance), radiance_at(place),
+  const std::optional<Rgb> radiance =
+      radiance_at({on_plane.dot(shape_.x), on_plane.dot(shape_.y)}, x + y + z);
+  if (!radiance) return std::nullopt;
+  return LightSample{x + y + z, static_cast<float>(distance), *radiance,
                      static_cast<float>(seen.pdf(distance)), normal_};
 }
 
@@ -77,7 +89,9 @@ std::optional<LightHit> RectangleLight::intersect(const V3f& from, const V3f& di
   const V3f on_plane = from_center + distance * direction;
   const float x = on_plane.dot(shape_.x), y = on_plane.dot(shape_.y);
   if (!(std::abs(x) <= shape_.half_size.x) || !(std::abs(y) <= shape_.half_size.y)) return std::nullopt;
-  return LightHit{distance, radiance_at({x / shape_.half_size.x, y / shape_.half_size.y}), normal_};
+  const std::optional<Rgb> radiance = radiance_at({x, y}, direction);
+  if (!radiance) return std::nullopt;
+  return LightHit{distance, *radiance, normal_};
 }
 
 float RectangleLight::importance(const V3f& from) const {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pelage {
 namespace {
 
 /// The factor of a cone by the angle to its axis: a cubic step between the cosines of its borders.
 float faded(const SpotCone& cone, float cosine) {
+  if (cone.half_angle >= std::numbers::pi_v<float>) return 1;
   const float outer = std::cos(cone.half_angle), inner = std::cos(cone.half_angle * (1 - cone.softness));
   if (!(inner > outer)) return cosine >= outer ? 1.0f : 0.0f;
   const float t = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
@@ -18,7 +20,9 @@ float faded(const SpotCone& cone, float cosine) {
 }  // namespace
 
 Rgb SpotCone::factor(const V3f& direction) const {
-  const float cosine = direction.dot(axis), fade = faded(*this, cosine);
+  const float cosine = direction.dot(axis);
+  float fade = faded(*this, cosine);
+  if (fade > 0 && profile) fade *= profile->factor({direction.dot(x), direction.dot(y), cosine});
   if (!(fade > 0) || !gobo) return Rgb(fade);
   const float unit = 0.5f / (cosine * std::tan(half_angle));
   return fade * gobo->color(0.5f + unit * direction.dot(x), 0.5f + unit * direction.dot(y));
@@ -53,10 +57,16 @@ float SpotLight::importance(const V3f& from) const {
   const V3f away = from - ball.center;
   const float distance = away.length();
   if (!(distance > ball.radius)) return sphere_.importance(from);
+  float brightness = 1;
+  if (cone_.profile) {
+    const V3f direction = away / distance;
+    brightness = std::max(0.1f, cone_.profile->factor({direction.dot(cone_.x), direction.dot(cone_.y),
+                                                       direction.dot(cone_.axis)}));
+  }
   // The direction of the sphere's light at `from` that is nearest to the axis.
   const float to_center = std::acos(std::clamp(away.dot(cone_.axis) / distance, -1.0f, 1.0f));
   const float nearest = std::max(0.0f, to_center - std::asin(ball.radius / distance));
-  return sphere_.importance(from) * faded(cone_, std::cos(nearest));
+  return sphere_.importance(from) * brightness * faded(cone_, std::cos(nearest));
 }
 
 }  // namespace pelage

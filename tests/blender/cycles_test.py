@@ -4,12 +4,42 @@ import math
 import pathlib
 import sys
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import bmesh
 import bpy
 import numpy as np
-from inside import camera, empty_scene, grey_plane, hairy, light, material, mean, render, run, set_world
+from inside import camera, empty_scene, grey_plane, hairy, light, material, mean, new_path, render, run, set_world
+from pelage_blender import scene_writer
+
+
+def profile_text(horizontal=(0, 90, 180, 270, 360)):
+    """A photometric file, uneven about its axis, in steps fine enough that both interpolations agree within 0.1 %."""
+    vertical = range(0, 181, 5)
+    rows = [[1000 * (1.2 + math.cos(math.radians(v)) + 0.5 * math.sin(math.radians(v)) * math.sin(math.radians(h - 40)))
+             for v in vertical] for h in horizontal]
+    numbers = [1, -1, 1, len(vertical), len(rows), 1, 2, 0, 0, 0, 1, 1, 50, *vertical, *horizontal, *sum(rows, [])]
+    return "IESNA:LM-63-1995\n[TEST] lamp\nTILT=NONE\n" + "\n".join(f"{number:.6g}" for number in numbers) + "\n"
+
+
+def add_profile(data, text=None, file=None, strength=1.0):
+    data.use_nodes = True
+    tree = data.node_tree
+    node = tree.nodes.new("ShaderNodeTexIES")
+    node.inputs["Strength"].default_value = strength
+    if file is not None:
+        node.mode, node.filepath = "EXTERNAL", str(file)
+    else:
+        node.mode, node.ies = "INTERNAL", bpy.data.texts.new("profile")
+        node.ies.write(text)
+    tree.links.new(node.outputs["Fac"], tree.nodes["Emission"].inputs["Strength"])
+
+
+def blocks(picture, size=12):
+    """Means of squares of a picture, whose noise is 3 % at most."""
+    rows, columns = picture["G"].shape
+    return picture["G"].reshape(rows // size, size, columns // size, size).mean(axis=(1, 3)) + 1e-3
 
 
 class Lights(unittest.TestCase):
@@ -31,6 +61,25 @@ class Lights(unittest.TestCase):
             ob = light("AREA", (1, 0, 2), energy=100, size=1, **shape)
             ob.scale = (1.2, 0.8, 1) if shape["shape"] != "DISK" else (1, 1, 1)
             self.assertAlmostEqual(self.ratio(), 1, delta=0.02, msg=shape)
+            bpy.data.objects.remove(ob)
+
+    def test_spread(self):
+        for shape, spread in (("RECTANGLE", 70), ("DISK", 130)):
+            ob = light("AREA", (0.5, 0, 2), energy=100, size=0.7, shape=shape, spread=math.radians(spread))
+            self.assertAlmostEqual(self.ratio(), 1, delta=0.02, msg=shape)
+            bpy.data.objects.remove(ob)
+
+    def test_profile(self):
+        path = new_path("ies")
+        path.write_text(profile_text(range(0, 361, 15)))
+        for kind, values, source in (("POINT", {}, {"file": path, "strength": 2}),
+                                     ("SPOT", {"spot_size": math.radians(90)}, {"text": path.read_text()})):
+            ob = light(kind, (0.5, 0, 1.5), (0.8, 0.6, 0), energy=3, shadow_soft_size=0.01, **values)
+            add_profile(ob.data, **source)
+            ours, truth = render("PELAGE", 8), render("CYCLES", 8)
+            self.assertGreater(mean(truth), 0.01)
+            self.assertAlmostEqual(mean(ours) / mean(truth), 1, delta=0.02, msg=kind)
+            self.assertLess(np.abs(blocks(ours) / blocks(truth) - 1).max(), 0.05, "a turned or mirrored profile")
             bpy.data.objects.remove(ob)
 
     def test_sun(self):
@@ -61,6 +110,33 @@ class Lights(unittest.TestCase):
     def test_world(self):
         set_world(0.7, (0.5, 0.4, 0.3))
         self.assertAlmostEqual(self.ratio(), 1, delta=0.02)
+
+    def test_world_image(self):
+        image = bpy.data.images.new("sky", 32, 16, float_buffer=True)
+        image.pixels.foreach_set((0.3 + np.random.default_rng(5).random((16, 32, 4)) ** 4).astype(np.float32).ravel())
+        tree = bpy.context.scene.world.node_tree
+        sky = tree.nodes.new("ShaderNodeTexEnvironment")
+        sky.image = image
+        tree.links.new(sky.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+        set_world(1)
+        self.assertAlmostEqual(self.ratio(), 1, delta=0.02)
+
+    def test_emitting_mesh(self):
+        """The add-on leaves emitting surfaces out: a `mesh` light takes the place of the world in the scene."""
+        path = new_path("obj")
+        corners = [(x, y, z) for x in (0.2, 0.6) for y in (1.0, 1.4) for z in (-0.1, 0.1)]
+        faces = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
+        path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a} {b} {c} {d}\n" for a, b, c, d in faces))
+        bpy.ops.mesh.primitive_cube_add(size=1, location=(0.4, 0, 1.2), scale=(0.4, 0.2, 0.4))
+        emitter = bpy.context.object
+        emitter.data.materials.append(material("ShaderNodeEmission", "emission", Strength=9))
+        emitter.visible_camera = False
+        truth = render("CYCLES", 16)
+        emitter.hide_render = True
+        mesh = {"type": "mesh", "file": str(path), "radiance": 9}
+        with unittest.mock.patch.object(scene_writer, "world_block", return_value=mesh):
+            ours = render("PELAGE", 16)
+        self.assertAlmostEqual(mean(ours) / mean(truth), 1, delta=0.02)
 
 
 class Cameras(unittest.TestCase):

@@ -171,6 +171,23 @@ std::vector<std::string> hdr_corpus() {
 
 std::vector<std::string> exr_corpus() { return {exr_bytes(5, 40), exr_bytes(1, 1)}; }
 
+std::vector<std::string> ies_corpus() {
+  const std::string head = "IESNA:LM-63-1995\n[TEST] seed\n", tail = " 1 2 0.1 0.1 0\n1 1 50\n";
+  const std::string tilt = head + "TILT=INCLUDE\n1\n2\n0 90\n1 0.9\n1 1000 1.5 3 3" + tail;
+  std::vector<std::string> corpus{
+      tilt + "0 45 90\n0 45 90\n100 50 10\n100 60 20\n100 70 30\n",
+      head + "TILT=NONE\n1 1000 1 2 4" + tail + "0 90 0 90 180 270 8 1 8 2 8 3 8 4",
+      head + "TILT=NONE\n1 1000 1 4 1" + tail + "0 0.01 0.02 180 0 1e-38 1e-45 0 3e38",
+      head + "TILT=NONE\n1 1000 1 2 1" + tail + "0 0.01 0 1 0",
+      head + "TILT=NONE\n1 1000 3e38 2 1" + tail + "0 180 0 1e38 1e38"};
+  for (const char* sizes : {"99999999 1", "1e30 1e30", "nan inf", "-1 2", "4294967297 2", "2 2"})
+    corpus.push_back(head + "TILT=NONE\n1 1000 1 " + sizes + tail + "0 90 0 1 1");
+  corpus.push_back(head + "TILT=INCLUDE\n1 99999999999 " + std::string(100000, '1'));
+  corpus.push_back("TILT=" + std::string(100000, '\n'));
+  corpus.push_back(std::string(100000, ' ') + "TILT=NONE");
+  return corpus;
+}
+
 std::vector<std::string> post_corpus() {
   // One part, and the same channels in two parts with windows of their own.
   const TemporaryFolder folder;

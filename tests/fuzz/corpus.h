@@ -20,6 +20,7 @@ std::vector<std::string> tfx_corpus();
 std::vector<std::string> obj_corpus();
 std::vector<std::string> hdr_corpus();
 std::vector<std::string> exr_corpus();
+std::vector<std::string> ies_corpus();
 std::vector<std::string> post_corpus();
 std::vector<std::string> request_corpus();
 std::vector<std::string> scene_corpus();

@@ -18,6 +18,8 @@ void fuzz_tfx(std::span<const uint8_t> bytes);
 void fuzz_obj(std::span<const uint8_t> bytes);
 void fuzz_hdr(std::span<const uint8_t> bytes);
 void fuzz_exr(std::span<const uint8_t> bytes);
+/// A photometric file, and the profile of a lamp that it makes.
+void fuzz_ies(std::span<const uint8_t> bytes);
 /// Both tools of post/ on an EXR, within a small budget.
 void fuzz_post(std::span<const uint8_t> bytes);
 /// The arguments of a procedural, which a renderer passes on from a RIB file.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pathlib
 from typing import Any
 
 import bpy
@@ -25,23 +26,36 @@ def _axes(matrix: mathutils.Matrix) -> dict[str, list[float]]:
             "up": place(matrix.col[1].xyz.normalized())}
 
 
-def _emission(light: bpy.types.Light, notes: Notes) -> tuple[list[float], float]:
-    """Colour, and factor on the power of the light, of its Emission node if it has nodes."""
+def _emission(light: bpy.types.Light, notes: Notes) -> tuple[list[float], float, bpy.types.Node | None]:
+    """Colour, factor on the power of the light, and IES Texture, of its Emission node if it has nodes."""
     color = list(light.color)
     node = surface_node(light, "ShaderNodeOutputLight") if light.use_nodes else None
     if node is None:
-        return color, 1.0
+        return color, 1.0, None
     if node.type != "EMISSION":
         notes.add("nodes of lights other than Emission: left out")
-        return color, 1.0
-    tint, factor = constant(node.inputs["Color"], notes), constant(node.inputs["Strength"], notes)
-    return [a * b for a, b in zip(color, tint)], float(factor)
+        return color, 1.0, None
+    tint, profile = constant(node.inputs["Color"], notes), linked_node(node.inputs["Strength"])
+    if profile is not None and profile.type == "TEX_IES" and light.type in ("POINT", "SPOT"):
+        if profile.inputs["Vector"].is_linked:
+            notes.add("vectors of IES textures: profiles turn with their light")
+        factor = constant(profile.inputs["Strength"], notes)
+    else:
+        profile, factor = None, constant(node.inputs["Strength"], notes)
+    return [a * b for a, b in zip(color, tint)], float(factor), profile
+
+
+def _profile(node: bpy.types.Node) -> dict[str, str]:
+    """The file of an IES Texture, or its text, which SceneWriter writes to a file."""
+    if node.mode == "INTERNAL":
+        return {"profile_text": node.ies.as_string() if node.ies is not None else ""}
+    return {"profile": str(pathlib.Path(bpy.path.abspath(node.filepath)).absolute())}
 
 
 def light_block(ob: bpy.types.Object, matrix: mathutils.Matrix, notes: Notes) -> dict[str, Any] | None:
     """A lamp as a block of `lights`; None if it emits nothing."""
     light = ob.data
-    color, factor = _emission(light, notes)
+    color, factor, profile = _emission(light, notes)
     energy = light.energy * factor
     if energy <= 0 or max(color) <= 0:
         return None
@@ -63,6 +77,10 @@ def light_block(ob: bpy.types.Object, matrix: mathutils.Matrix, notes: Notes) ->
     else:
         block = {"type": "point", "position": axes["position"], "power": energy,
                  "radius": max(light.shadow_soft_size, SMALLEST_RADIUS)}
+    if profile is not None:
+        # Both take the brightness of the file for 1 W.
+        del block["power"]
+        block |= axes | _profile(profile) | {"intensity": energy}
     block["radiance"] = numbers(np.maximum(color, 0))
     cycles = getattr(light, "cycles", None)
     if cycles is not None and not cycles.cast_shadow:
@@ -75,14 +93,13 @@ def _area(light: bpy.types.Light, matrix: mathutils.Matrix, axes: dict[str, list
     width, height = abs(light.size * scale.x), abs(light.size * scale.y)
     if light.shape in ("RECTANGLE", "ELLIPSE"):
         height = abs(light.size_y * scale.y)
-    if light.spread < math.pi - 1e-3:
-        notes.add("spread of area lights: they shine to all sides of their front")
+    spread = {"spread": max(math.degrees(light.spread), 1.0)} if light.spread < math.pi - 1e-3 else {}
     width, height = max(width, 1e-5), max(height, 1e-5)
     if light.shape in ("DISK", "ELLIPSE"):
         if abs(width - height) > 1e-4 * width:
             notes.add("elliptic area lights: discs of the same area")
-        return {"type": "disk", **{k: axes[k] for k in ("position", "look_at")}, "radius": 0.5 * math.sqrt(width * height)}
-    return {"type": "rectangle", **axes, "size": numbers([width, height])}
+        return {"type": "disk", **{k: axes[k] for k in ("position", "look_at")}, "radius": 0.5 * math.sqrt(width * height)} | spread
+    return {"type": "rectangle", **axes, "size": numbers([width, height])} | spread
 
 
 def world_block(world: bpy.types.World | None, folder: SceneFolder, notes: Notes, frame: int) -> dict[str, Any] | None:

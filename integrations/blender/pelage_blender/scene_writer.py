@@ -2,6 +2,7 @@
 """Writes a depsgraph as a folder with a Pelage scene."""
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 
 import bpy
@@ -96,6 +97,10 @@ class SceneWriter:
             block = moving(keys, ("position", "look_at", "direction"))
             if block["type"] == "spot":
                 block["file"] = self.folder.put(f"spot {block['cone']:.3f}.exr", exr.encode({"Y": spot_image(block["cone"])}))
+            if "profile_text" in block:
+                text = block.pop("profile_text")
+                digest = hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
+                block["profile"] = self.folder.put(f"profile_{digest}.ies", text)
             lights[self.document.name("lights", stage.names[key])] = block
 
     def _surfaces(self, stage: Stage) -> None:

@@ -15,7 +15,7 @@ WITHOUT_COUNTERPART = (
     "normal, bump and displacement maps",
     "shader nodes other than colours, numbers and image textures",
     "panoramic cameras, pixels that are not square, clipping",
-    "spread of area lights, ray visibility, light linking, holdouts",
+    "ray visibility, light linking, holdouts",
     "rolling shutter, shutter curves, motion of strands relative to their emitter",
     "Freestyle, denoising, Cryptomatte",
 )
