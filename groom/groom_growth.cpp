@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Imath/ImathBoxAlgo.h>
 
@@ -9,6 +10,7 @@
 #include "base/memory_budget.h"
 #include "groom/coat/strand_writer.h"
 #include "groom/groom_impl.h"
+#include "groom/strands/work_batch.h"
 
 namespace pelage {
 
@@ -43,9 +45,10 @@ size_t key_count(const PosedSkin& pose, bool on_skin) {
 
 void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const {
   const size_t keys = key_count(pose, source.rest != nullptr);
-  const auto batch = std::make_unique<StrandBatch>();
+  const WorkBatch batch;
   // A single key is computed in place; several need the rest state again.
-  const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
+  std::optional<WorkBatch> posed;
+  if (keys > 1) posed.emplace();
   for (size_t at = begin, run = 0; at < end; at += run) {
     run = source.run_length(at, end);
     batch->count = writer.needed(at - begin, run);
@@ -54,10 +57,10 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
     source.start(*batch, at);
     stack->apply_frozen(*batch);
     for (size_t key = 0; key < keys; ++key) {
-      StrandBatch* target = batch.get();
+      StrandBatch* target = &*batch;
       if (posed) {
-        *posed = *batch;
-        target = posed.get();
+        **posed = *batch;
+        target = &**posed;
       }
       stand(*target, at, pose, key);
       carry_to_pose(*target, pose.scale);
@@ -89,10 +92,11 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
   const size_t keys = key_count(pose, source.rest != nullptr);
   const size_t live = std::max(frozen_end, stack->first_live());
   const FrozenLeaf& strands = frozen->leaf(leaf);
-  const auto batch = std::make_unique<StrandBatch>();
+  const WorkBatch batch;
   // Live operators need their input state at every key; without them a key only transforms the offsets again.
   const bool has_live = live < stack->size();
-  const auto posed = keys > 1 && (has_live || needs_rest_frames) ? std::make_unique<StrandBatch>() : nullptr;
+  std::optional<WorkBatch> posed;
+  if (keys > 1 && (has_live || needs_rest_frames)) posed.emplace();
   for (const FrozenLeaf::Block& block : strands.blocks()) {
     const size_t at = begin + block.first;
     if (at >= end) break;
@@ -118,10 +122,10 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
     }
     stack->apply(frozen_end, live, *batch);
     for (size_t key = 0; key < keys; ++key) {
-      StrandBatch* target = batch.get();
+      StrandBatch* target = &*batch;
       if (posed) {
-        *posed = *batch;
-        target = posed.get();
+        **posed = *batch;
+        target = &**posed;
       }
       stand(*target, at, pose, key);
       if (needs_rest_frames) {

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-
-#include "lod/point_fit.h"
 
 namespace pelage {
 namespace {
@@ -20,24 +17,6 @@ bool stays_within(const PointFit& fit, const Strands& strands, size_t strand, fl
   }
   return true;
 }
-
-/// Selects the number of points of each strand.
-class Choice {
- public:
-  const PointFit* fit(const Strands& strands, size_t strand, float tolerance) {
-    const uint32_t from = strands.strand_points(strand);
-    for (const uint32_t to : kFewerPoints) {
-      if (to >= from || !(tolerance > 0)) break;
-      auto found = fits_.find({from, to});
-      if (found == fits_.end()) found = fits_.try_emplace({from, to}, from, to).first;
-      if (stays_within(found->second, strands, strand, tolerance)) return &found->second;
-    }
-    return nullptr;
-  }
-
- private:
-  std::map<std::pair<uint32_t, uint32_t>, PointFit> fits_;
-};
 
 /// Weighted sums of rows of `width` floats.
 void combine(std::span<const float> weights, const float* rows, size_t width, float* out) {
@@ -78,15 +57,29 @@ void limit(std::span<float> values, std::span<const float> fitted_to, size_t wid
 
 }  // namespace
 
+const PointFit* FewerPoints::choose(const Strands& strands, size_t strand, float tolerance) {
+  const uint32_t from = strands.strand_points(strand);
+  for (const uint32_t to : kFewerPoints) {
+    if (to >= from || !(tolerance > 0)) break;
+    auto found = fits_.find({from, to});
+    if (found == fits_.end()) found = fits_.try_emplace({from, to}, from, to).first;
+    if (stays_within(found->second, strands, strand, tolerance)) return &found->second;
+  }
+  return nullptr;
+}
+
 Strands with_fewer_points(Strands strands, std::span<const float> tolerance) {
+  return FewerPoints().refit(std::move(strands), tolerance);
+}
+
+Strands FewerPoints::refit(Strands strands, std::span<const float> tolerance) {
   if (strands.basis() != CurveBasis::kPinnedBSpline) return strands;
-  Choice choice;
   std::vector<const PointFit*> fits(strands.strand_count());
   StrandArrays fewer;
   fewer.first_point.reserve(fits.size() + 1);
   fewer.first_point.push_back(0);
   for (size_t s = 0; s < fits.size(); ++s) {
-    fits[s] = choice.fit(strands, s, tolerance[s]);
+    fits[s] = choose(strands, s, tolerance[s]);
     fewer.first_point.push_back(fewer.first_point.back() +
                                 (fits[s] ? static_cast<uint32_t>(fits[s]->to()) : strands.strand_points(s)));
   }

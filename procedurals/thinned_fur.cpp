@@ -56,13 +56,14 @@ auto ThinnedFurProcedural::in_pose(BoundSpan span, const Use& use) const {
 
 Strands ThinnedFurProcedural::grow(const SkinPose& pose) const {
   std::vector<Strands> leaves;
+  FewerPoints fewer;
   for (size_t leaf = first_; leaf < end_; ++leaf) {
     CoatDetail::Choice choice = detail_->choose(leaf, pose);
     if (choice.strands.empty()) continue;
     const KeptStrands kept = choice.kept();
     Strands strands = detail_->groom().grow(leaf, pose.skin(), &kept);
     if (detail_->groom().grows_on_skin()) strands = RootDetail::added(std::move(strands), choice.detail);
-    leaves.push_back(with_fewer_points(std::move(strands), choice.tolerance));
+    leaves.push_back(fewer.refit(std::move(strands), choice.tolerance));
   }
   if (leaves.size() == 1) return std::move(leaves.front());
   return merge(leaves);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "base/check.h"
 #include "base/hash.h"
@@ -24,10 +23,6 @@ RootGrid::RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float r
   items_.resize(positions_.size());
   for (size_t i = positions_.size(); i-- > 0;)
     items_[--first_[bucket_of(positions_[i])]] = static_cast<uint32_t>(i);
-}
-
-int64_t RootGrid::cell(float coordinate) const {
-  return static_cast<int64_t>(std::floor(static_cast<double>(coordinate) * inverse_cell_));
 }
 
 size_t RootGrid::bucket(int64_t x, int64_t y, int64_t z) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -53,7 +54,19 @@ class RootGrid {
 
  private:
   size_t bucket(int64_t x, int64_t y, int64_t z) const;
-  int64_t cell(float coordinate) const;
+  int64_t cell(float coordinate) const {
+    return static_cast<int64_t>(std::floor(static_cast<double>(coordinate) * inverse_cell_));
+  }
+  bool is_in(const V3f& p, int64_t x, int64_t y, int64_t z) const {
+    return cell(p.x) == x && cell(p.y) == y && cell(p.z) == z;
+  }
+  /// Lower bound of the squared distance, in this coordinate, from a place to points of a cell. The margin
+  /// exceeds the rounding of this function and of squared distances in float.
+  double squared_gap(float coordinate, int64_t cell) const {
+    const double at = static_cast<double>(coordinate) * inverse_cell_, low = static_cast<double>(cell);
+    const double gap = std::max({low - at, at - (low + 1), 0.0}) * (1 - 1e-5) / inverse_cell_;
+    return gap * gap;
+  }
 
   float radius_ = 0;
   float inverse_cell_ = 0;
@@ -80,7 +93,7 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
           const float distance2 = d.dot(d);
           if (distance2 > radius_ * radius_ || !same_side(normals_[i], normal)) continue;
           // Several cells may share a bucket: skip places of other cells.
-          if (cell(p.x) != x || cell(p.y) != y || cell(p.z) != z) continue;
+          if (!is_in(p, x, y, z)) continue;
           visit(i, distance2);
         }
       }
@@ -91,16 +104,41 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
 template <class Accept>
 bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& result,
                           const Accept& accept) const {
-  float best = 0;
+  if (positions_.empty()) return false;
+  float best = radius_ * radius_;
   bool found = false;
-  for_each_near(position, normal, [&](uint32_t i, float distance2) {
-    if (found && (distance2 > best || (distance2 == best && i > result.index))) return;
-    if (!accept(i)) return;
-    found = true;
-    best = distance2;
-    result.index = i;
-  });
-  result.distance = std::sqrt(best);
+  const auto look = [&](int64_t x, int64_t y, int64_t z) {
+    const size_t b = bucket(x, y, z);
+    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+      const uint32_t i = items_[k];
+      const V3f d = positions_[i] - position;
+      const float distance2 = d.dot(d);
+      if (distance2 > best || (found && distance2 == best && i > result.index)) continue;
+      if (!same_side(normals_[i], normal) || !is_in(positions_[i], x, y, z) || !accept(i)) continue;
+      found = true;
+      best = distance2;
+      result.index = i;
+    }
+  };
+  // The cell of the query first: the other cells are then mostly farther away than the best point.
+  const int64_t x = cell(position.x), y = cell(position.y), z = cell(position.z);
+  look(x, y, z);
+  const int64_t x0 = cell(position.x - radius_), x1 = cell(position.x + radius_);
+  const int64_t y0 = cell(position.y - radius_), y1 = cell(position.y + radius_);
+  const int64_t z0 = cell(position.z - radius_), z1 = cell(position.z + radius_);
+  for (int64_t k = z0; k <= z1; ++k) {
+    const double dz = squared_gap(position.z, k);
+    if (dz > best) continue;
+    for (int64_t j = y0; j <= y1; ++j) {
+      const double dzy = dz + squared_gap(position.y, j);
+      if (dzy > best) continue;
+      for (int64_t i = x0; i <= x1; ++i) {
+        if ((i == x && j == y && k == z) || dzy + squared_gap(position.x, i) > best) continue;
+        look(i, j, k);
+      }
+    }
+  }
+  result.distance = std::sqrt(found ? best : 0.0f);
   return found;
 }
 

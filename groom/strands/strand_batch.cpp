@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/strands/strand_batch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
@@ -34,9 +35,9 @@ void start_strands(StrandBatch& batch, int points) {
 }
 
 void clear_attributes(StrandBatch& batch) {
-  for (StrandBatch::PointRows& rows : batch.points) rows.radius.fill(0.0f);
+  for (StrandBatch::PointRows& rows : batch.points) std::fill_n(rows.radius.data(), batch.count, 0.0f);
   for (VectorRow& color : batch.colors) {
-    for (StrandRow& channel : color) channel.fill(1.0f);
+    for (StrandRow& channel : color) std::fill_n(channel.data(), batch.count, 1.0f);
   }
 }
 

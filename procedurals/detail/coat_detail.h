@@ -38,7 +38,7 @@ class CoatDetail {
     std::vector<float> width;        ///< factor on the width (Simplification::width_factor())
     std::vector<float> contrast;     ///< factor on the deviation of the colour (Simplification::contrast())
     std::vector<RootDetail> detail;  ///< normal and share at the root
-    std::vector<float> tolerance;    ///< tolerance for with_fewer_points(), in scene units
+    std::vector<float> tolerance;    ///< tolerance for FewerPoints::refit(), in scene units
     KeptStrands kept() const { return {strands, width, contrast}; }
   };
   /// Returns the kept strands of a leaf. `pose` must contain the faces below the candidates of the leaf.

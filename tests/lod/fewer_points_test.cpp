@@ -163,6 +163,19 @@ TEST(FewerPoints, BandsKeepTheirHue) {
   }
 }
 
+TEST(FewerPoints, KeptFitsGiveTheSameStrands) {
+  FewerPoints fewer;
+  const std::vector<float> tolerance(30, 0.02f);
+  for (const uint32_t points : {8u, 6u, 65u, 8u, 6u}) {
+    const Strands full = some_strands(30, points, 0.01f);
+    const Strands kept = fewer.refit(Strands(full), tolerance);
+    const Strands fresh = with_fewer_points(Strands(full), tolerance);
+    EXPECT_EQ(kept.arrays().first_point, fresh.arrays().first_point);
+    EXPECT_EQ(kept.arrays().points, fresh.arrays().points);
+    EXPECT_EQ(kept.find_attribute("color")->values, fresh.find_attribute("color")->values);
+  }
+}
+
 TEST(FewerPoints, EachStrandByItself) {
   const Strands full = some_strands(10, 8, 0.02f);
   std::vector<float> tolerance(10, 0.0f);
