@@ -18,8 +18,8 @@ void keep_heap_small();
 /// freed memory at its end. Threads that grow strands allocate and free megabytes many times a second. To
 /// give pages back and get new ones interrupts all threads, and takes more time than growth itself. All heaps
 /// together keep at most a fortieth of `limit`, the max of memory in bytes, but each may keep 128 KiB; 0: no
-/// limit. With a limit below 1 GiB, the heap is kept small as after keep_heap_small(). Measured:
-/// docs/lab/ACCEL.md, waste of the heap.
+/// limit. With a limit below 1 GiB, the heap is kept small as after keep_heap_small(). May be called again
+/// when the limit has changed, also while threads run. Measured: docs/lab/ACCEL.md, waste of the heap.
 void keep_spare_heap(size_t limit, int threads);
 
 /// Returns unused memory between the blocks of the heap to the system. Call after freeing much memory that

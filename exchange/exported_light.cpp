@@ -8,6 +8,7 @@
 #include "geom/io/mesh_file.h"
 #include "render/light/aim.h"
 #include "render/light/environment_light.h"
+#include "render/light/panel_shape.h"
 
 namespace pelage {
 namespace {
@@ -26,22 +27,31 @@ double area_of(const ControlMesh& mesh) {
   return area;
 }
 
+/// Fraction of a light's power that its spread lets pass. An exported light has no spread, but this power.
+template <class Params>
+float passed_fraction(const Params& p) {
+  if constexpr (requires { p.spread; }) return static_cast<float>(SpreadGrid(p.spread).passed());
+  return 1;
+}
+
 /// What limits the directions of a light and is not exported, in the plural; empty: nothing.
 std::string lost_shaping(const LightParams& params) {
-  return std::visit(
-      [](const auto& p) -> std::string {
+  std::string lost;
+  const auto add = [&](std::string_view what) { lost += (lost.empty() ? "" : " and ") + std::string(what); };
+  std::visit(
+      [&](const auto& p) {
         if constexpr (requires { p.barn_doors; }) {
-          if (p.barn_doors) return "its barn doors";
+          if (p.barn_doors) add("its barn doors");
         }
         if constexpr (requires { p.spread; }) {
-          if (p.spread < 180) return "the limits of its spread";
+          if (p.spread < 180) add("the limits of its spread");
         }
         if constexpr (requires { p.profile; }) {
-          if (!p.profile.empty()) return "the intensities of its profile";
+          if (!p.profile.empty()) add("the intensities of its profile");
         }
-        return {};
       },
       params);
+  return lost;
 }
 
 struct ExportedLightOf {
@@ -100,7 +110,7 @@ struct ExportedLightOf {
     ExportedLight light;
     light.kind = kind;
     light.name = name;
-    light.radiance = p.color() * (p.strength(frame) * p.unit_radiance() * factor);
+    light.radiance = p.color() * (p.strength(frame) * p.unit_radiance() * passed_fraction(p) * factor);
     light.visible = p.visible;
     light.shadows = p.shadows;
     return light;

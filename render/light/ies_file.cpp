@@ -35,8 +35,8 @@ class IesScanner {
       token_line_ = line_;
       at_ = std::min(end + 1, text_.size());
       ++line_;
-      while (!line.empty() && is_between(line.back())) line.remove_suffix(1);
-      if (line.starts_with("TILT=")) return line.substr(5);
+      line = trimmed(line);
+      if (line.starts_with("TILT=")) return trimmed(line.substr(5));
     }
     return {};
   }
@@ -69,6 +69,12 @@ class IesScanner {
   }
 
  private:
+  static std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_between(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_between(text.back())) text.remove_suffix(1);
+    return text;
+  }
+
   static bool is_between(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',' || c == '\v' || c == '\f' ||
            c == '\x1a';
@@ -111,7 +117,8 @@ std::vector<float> read_angles(IesScanner& scanner, size_t count, const char* wh
     if (!(angles[i] >= 0 && angles[i] <= max))
       scanner.refuse(fmt::format("expected {} from 0 to {}, got {}", what, max, angles[i]));
     if (i > 0 && !(angles[i] >= angles[i - 1] + kLeastStep))
-      scanner.refuse(fmt::format("expected {} above {}, got {}", what, angles[i - 1], angles[i]));
+      scanner.refuse(
+          fmt::format("expected {} of at least {}, got {}", what, angles[i - 1] + kLeastStep, angles[i]));
   }
   return angles;
 }
@@ -160,12 +167,12 @@ IesPhotometry read_ies(const std::filesystem::path& path) {
   check_symmetry(scanner, ies.horizontal);
   for (size_t i = 0; i < vertical * horizontal; ++i) {
     const float candela = factor * scanner.number("a candela value");
-    if (!(candela >= 0 && std::isfinite(candela)))
-      scanner.refuse(fmt::format("expected a candela value not below 0, got {}", candela));
+    if (!std::isfinite(candela)) scanner.refuse("a candela value and its factors are too large for a float");
+    if (!(candela >= 0)) scanner.refuse(fmt::format("expected a candela value not below 0, got {}", candela));
     ies.candela.push_back(candela);
   }
-  if (std::all_of(ies.candela.begin(), ies.candela.end(), [](float v) { return v == 0; }))
-    scanner.refuse("all candela values are 0");
+  if (std::all_of(ies.candela.begin(), ies.candela.end(), [](float v) { return v < 1e-20f; }))
+    scanner.refuse("all candela values are 0 or almost 0");
   if (is_open_circle(ies.horizontal)) {
     ies.horizontal.push_back(360);
     ies.candela.insert(ies.candela.end(), ies.candela.begin(),

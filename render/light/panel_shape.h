@@ -27,8 +27,8 @@ class SpreadGrid {
   float slope_ = 0;  // 1 / tan of the half angle
 };
 
-/// Four flaps around a rectangle, hinged at its sides, which block light. A flap is as long as it is told,
-/// and as wide as needed that no light passes between two flaps.
+/// Four flaps around a rectangle, hinged at its sides, which block light. Flaps are wide enough that no light
+/// passes between two of them.
 struct BarnDoors {
   float length = 0;  ///< from the hinge to the edge, in scene units; 0: none
   float left = 30, right = 30, top = 30, bottom = 30;  ///< degrees from straight ahead, outwards

@@ -69,6 +69,24 @@ TEST_F(SceneExport, UsdRoundTripKeepsTheStrands) {
   }
 }
 
+TEST_F(SceneExport, LightsKeepTheirPowerWithoutSpreadAndDoors) {
+  const std::string panel = "{type: rectangle, position: [0, 5, 0], look_at: [0, 0, 0], power: 100";
+  const auto intensity = [&](const std::string& shaping, const std::string& name) {
+    const std::filesystem::path folder =
+        write(ExportFormat::kUsd, {{"lights.panel", panel + shaping + "}"}, {"render.samples", "1"}}, name);
+    const std::string text = read_file(folder / "fur.usda");
+    const size_t at = text.find("inputs:intensity = ", text.find("\"panel\""));
+    EXPECT_NE(at, std::string::npos) << text;
+    return std::stod(text.substr(at + std::string("inputs:intensity = ").size()));
+  };
+  const double plain = intensity("", "plain");
+  EXPECT_NEAR(plain, 100 / M_PI, 0.01);
+  EXPECT_NEAR(intensity(", spread: 14, barn_doors: {length: 1}", "shaped"), plain, 1e-4 * plain);
+  EXPECT_NE(read_file(files_.path("shaped/README.md"))
+                .find("its barn doors and the limits of its spread are lost: it shines in more directions"),
+            std::string::npos);
+}
+
 TEST_F(SceneExport, UsdStageIsValidAndOpensWithoutStrands) {
   const std::filesystem::path folder = write(ExportFormat::kUsd);
   const ValidationReport findings = validate_usd(folder / "fur.usda");

@@ -45,11 +45,15 @@ def _emission(light: bpy.types.Light, notes: Notes) -> tuple[list[float], float,
     return [a * b for a, b in zip(color, tint)], float(factor), profile
 
 
-def _profile(node: bpy.types.Node) -> dict[str, str]:
-    """The file of an IES Texture, or its text, which SceneWriter writes to a file."""
+def _profile(node: bpy.types.Node, notes: Notes) -> dict[str, str] | None:
+    """The file of an IES Texture, or its text, which SceneWriter writes to a file; None if it has neither."""
     if node.mode == "INTERNAL":
-        return {"profile_text": node.ies.as_string() if node.ies is not None else ""}
-    return {"profile": str(pathlib.Path(bpy.path.abspath(node.filepath)).absolute())}
+        if node.ies is not None:
+            return {"profile_text": node.ies.as_string()}
+    elif node.filepath and (path := pathlib.Path(bpy.path.abspath(node.filepath)).absolute()).is_file():
+        return {"profile": str(path)}
+    notes.add("IES textures without a file: left out")
+    return None
 
 
 def light_block(ob: bpy.types.Object, matrix: mathutils.Matrix, notes: Notes) -> dict[str, Any] | None:
@@ -77,10 +81,11 @@ def light_block(ob: bpy.types.Object, matrix: mathutils.Matrix, notes: Notes) ->
     else:
         block = {"type": "point", "position": axes["position"], "power": energy,
                  "radius": max(light.shadow_soft_size, SMALLEST_RADIUS)}
-    if profile is not None:
+    shape = _profile(profile, notes) if profile is not None else None
+    if shape is not None:
         # Both take the brightness of the file for 1 W.
         del block["power"]
-        block |= axes | _profile(profile) | {"intensity": energy}
+        block |= axes | shape | {"intensity": energy}
     block["radiance"] = numbers(np.maximum(color, 0))
     cycles = getattr(light, "cycles", None)
     if cycles is not None and not cycles.cast_shadow:

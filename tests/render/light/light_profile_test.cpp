@@ -82,12 +82,12 @@ TEST(IesFile, MistakesAreOneLineWithTheLineOfTheFile) {
   EXPECT_EQ(mistake("TILT=NONE\n1 1000 1 2 1 4 2"), "2: expected the photometric type 1, 2 or 3, got 4");
   EXPECT_EQ(mistake(file_of("2 1", "0 9O 0 1 1")), "7: expected a vertical angle, got '9O'");
   EXPECT_EQ(mistake(file_of("2 1", "0 90\n0\n1")), "9: expected a candela value, got the end of the file");
-  EXPECT_EQ(mistake(file_of("2 1", "90 0 0 1 1")), "7: expected a vertical angle above 90, got 0");
+  EXPECT_EQ(mistake(file_of("2 1", "90 0 0 1 1")), "7: expected a vertical angle of at least 90.01, got 0");
   EXPECT_EQ(mistake(file_of("2 1", "0 190 0 1 1")), "7: expected a vertical angle from 0 to 180, got 190");
   EXPECT_EQ(mistake(file_of("2 2", "0 90 0 120 1 1 1 1")),
             "7: horizontal angles from 0 to 120; expected 0 to 90, 0 to 180, 90 to 270 or 0 to 360");
   EXPECT_EQ(mistake(file_of("2 1", "0 90 0 1 -2")), "7: expected a candela value not below 0, got -2");
-  EXPECT_EQ(mistake(file_of("2 1", "0 90 0 0 0")), "7: all candela values are 0");
+  EXPECT_EQ(mistake(file_of("2 1", "0 90 0 0 0")), "7: all candela values are 0 or almost 0");
   EXPECT_EQ(mistake(file_of("2.5 1", "0 90 0 1 1")),
             "5: expected the number of vertical angles, at least 2, got 2.5");
   EXPECT_EQ(mistake(file_of("2 99999", "0 90 0 1 1")),
