@@ -8,7 +8,6 @@
 #include "geom/io/mesh_file.h"
 #include "render/light/aim.h"
 #include "render/light/environment_light.h"
-#include "render/light/panel_shape.h"
 
 namespace pelage {
 namespace {
@@ -25,13 +24,6 @@ double area_of(const ControlMesh& mesh) {
         double{(mesh.positions[triangles[i + 1]] - a).cross(mesh.positions[triangles[i + 2]] - a).length()};
   }
   return area;
-}
-
-/// Fraction of a light's power that its spread lets pass. An exported light has no spread, but this power.
-template <class Params>
-float passed_fraction(const Params& p) {
-  if constexpr (requires { p.spread; }) return static_cast<float>(SpreadGrid(p.spread).passed());
-  return 1;
 }
 
 /// What limits the directions of a light and is not exported, in the plural; empty: nothing.
@@ -110,7 +102,7 @@ struct ExportedLightOf {
     ExportedLight light;
     light.kind = kind;
     light.name = name;
-    light.radiance = p.color() * (p.strength(frame) * p.unit_radiance() * passed_fraction(p) * factor);
+    light.radiance = p.color() * (p.strength(frame) * radiance_without_spread(p) * factor);
     light.visible = p.visible;
     light.shadows = p.shadows;
     return light;

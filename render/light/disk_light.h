@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/light/light.h"
-#include "render/light/panel_shape.h"
 #include "render/light/spherical_rectangle.h"
+#include "render/light/spread_grid.h"
 
 namespace pelage {
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr size_t kLongestIes = size_t(16) << 20;  // bytes; files of luminaires have 2 to 200 KiB
 
-/// Degrees between two angles, at least: the mean of the profile would be inaccurate with smaller steps.
-constexpr float kLeastStep = 0.01f;
+/// Min difference of two angles, in degrees: with smaller steps, the mean of the profile would be inaccurate.
+constexpr float kMinStep = 0.01f;
 
 /// Reads the lines before TILT=, and then the numbers, which may be anywhere in lines.
 class IesScanner {
@@ -116,9 +116,9 @@ std::vector<float> read_angles(IesScanner& scanner, size_t count, const char* wh
     angles[i] = scanner.number(what);
     if (!(angles[i] >= 0 && angles[i] <= max))
       scanner.refuse(fmt::format("expected {} from 0 to {}, got {}", what, max, angles[i]));
-    if (i > 0 && !(angles[i] >= angles[i - 1] + kLeastStep))
+    if (i > 0 && !(angles[i] >= angles[i - 1] + kMinStep))
       scanner.refuse(
-          fmt::format("expected {} of at least {}, got {}", what, angles[i - 1] + kLeastStep, angles[i]));
+          fmt::format("expected {} of at least {}, got {}", what, angles[i - 1] + kMinStep, angles[i]));
   }
   return angles;
 }
@@ -128,7 +128,7 @@ bool is_open_circle(const std::vector<float>& horizontal) {
   if (horizontal.front() != 0 || horizontal.back() <= 180 || horizontal.back() >= 360) return false;
   float widest = 0;
   for (size_t i = 1; i < horizontal.size(); ++i) widest = std::max(widest, horizontal[i] - horizontal[i - 1]);
-  return 360 - horizontal.back() <= widest + kLeastStep;
+  return 360 - horizontal.back() <= widest + kMinStep;
 }
 
 void check_symmetry(const IesScanner& scanner, const std::vector<float>& horizontal) {

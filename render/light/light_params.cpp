@@ -118,13 +118,16 @@ const Schema<PointLightParams>& PointLightParams::schema() {
   bulb: {type: point, position: [0, 3, 2], power: 300, temperature: 2700}
   downlight: {type: point, position: [0, 5, 0], profile: downlight.ies, power: 800})");
     s.key("position", &PointLightParams::position, {.unit = "scene units", .help = "Centre"});
-    s.key("look_at", &PointLightParams::look_at,
-          {.unit = "scene units",
-           .help = "Point in the direction of the profile's vertical angle 0",
-           .default_text = "straight down"});
-    s.key("up", &PointLightParams::up,
-          {.help = "Up vector of the profile: its horizontal angle 180, and 90 is at the left, as seen from "
-                   "behind the lamp. If the lamp points along it, -z takes its place"});
+    s.key(
+        "look_at", &PointLightParams::look_at,
+        {.unit = "scene units",
+         .help = "Point in the direction of the profile's vertical angle 0. Has no effect without `profile`",
+         .default_text = "straight down"});
+    s.key(
+        "up", &PointLightParams::up,
+        {.help =
+             "Direction of the profile's horizontal angle 180. Seen from behind the lamp, 90 is at the left. "
+             "If the lamp points in this direction, -z takes its place. Has no effect without `profile`"});
     s.key("radius", &PointLightParams::radius, kSmallRadius);
     s.key("power", &PointLightParams::power, kLampPower);
     s.key("profile", &PointLightParams::profile, kProfile);

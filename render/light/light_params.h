@@ -9,10 +9,11 @@
 #include "base/ledger.h"
 #include "base/value_readers.h"
 #include "geom/io/file_transform.h"
+#include "render/light/barn_doors.h"
 #include "render/light/ies_file.h"
 #include "render/light/light.h"
 #include "render/light/light_emission.h"
-#include "render/light/panel_shape.h"
+#include "render/light/spread_grid.h"
 
 namespace pelage {
 
@@ -83,7 +84,7 @@ struct SpotLightParams : LightEmission {
   float softness = 0.2f;        ///< SpotCone::softness
   AssetPath file;               ///< SpotCone::gobo; empty: none
   AssetPath profile;            ///< SpotCone::profile; empty: none
-  float unit_radiance() const;  ///< as that of a point
+  float unit_radiance() const;  ///< of the whole sphere, as PointLightParams::unit_radiance()
   static const Schema<SpotLightParams>& schema();
 };
 struct SunLightParams : LightEmission {
@@ -116,6 +117,15 @@ struct EnvironmentLightParams : LightEmission {
 };
 using LightParams = std::variant<RectangleLightParams, DiskLightParams, SphereLightParams, PointLightParams,
                                  SpotLightParams, SunLightParams, MeshLightParams, EnvironmentLightParams>;
+
+/// Returns the unit radiance of a light that has no spread but the same power, for renderers without spread.
+template <class Params>
+float radiance_without_spread(const Params& p) {
+  if constexpr (requires { p.spread; })
+    return p.unit_radiance() * static_cast<float>(SpreadGrid(p.spread).passed_fraction());
+  else
+    return p.unit_radiance();
+}
 
 /// Reads the profile of a point or a spot. Throws Error (kInput) as read_ies() does, at the place of the
 /// scene if the file cannot be read.

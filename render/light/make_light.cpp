@@ -199,10 +199,10 @@ IesPhotometry read_profile(const AssetPath& file) {
 
 float RectangleLightParams::unit_radiance() const {
   const float area = (two_sided ? 2.0f : 1.0f) * size.x * size.y;
-  return radiance_of(power, area * static_cast<float>(SpreadGrid(spread).passed()));
+  return radiance_of(power, area * static_cast<float>(SpreadGrid(spread).passed_fraction()));
 }
 float DiskLightParams::unit_radiance() const {
-  return radiance_of(power, kPi * radius * radius * static_cast<float>(SpreadGrid(spread).passed()));
+  return radiance_of(power, kPi * radius * radius * static_cast<float>(SpreadGrid(spread).passed_fraction()));
 }
 float SphereLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
 float PointLightParams::unit_radiance() const {

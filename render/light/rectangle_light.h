@@ -4,8 +4,9 @@
 #include <memory>
 
 #include "image/texture.h"
+#include "render/light/barn_doors.h"
 #include "render/light/light.h"
-#include "render/light/panel_shape.h"
+#include "render/light/spread_grid.h"
 
 namespace pelage {
 

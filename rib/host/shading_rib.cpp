@@ -57,7 +57,7 @@ struct LightWriter {
   /// `factor`: of the radiance, for shaders whose intensity is no radiance.
   template <class Params>
   void parameters(const Params& p, float factor = 1) const {
-    const Rgb color = p.color() * (p.unit_radiance() * factor);
+    const Rgb color = p.color() * (radiance_without_spread(p) * factor);
     rib.parameter("string name").texts({name});
     rib.parameter("color lightcolor").numbers({color.x, color.y, color.z});
     rib.parameter("float intensity").numbers({p.strength(frame)});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/light/panel_shape.h"
+#include "render/light/barn_doors.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace pelage {
 namespace {
@@ -19,22 +19,6 @@ bool passes_flap(float inside, float slope, float length, float degrees) {
 
 }  // namespace
 
-SpreadGrid::SpreadGrid(float degrees) {
-  if (degrees >= 180) return;
-  half_angle_ = 0.5 * double{degrees} * std::numbers::pi / 180;
-  slope_ = static_cast<float>(1 / std::tan(half_angle_));
-}
-
-float SpreadGrid::factor(float cosine) const {
-  if (!(slope_ > 0)) return 1;
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return cosine > 0 ? std::max(0.0f, 1 - slope_ * sine / cosine) : 0.0f;
-}
-
-/// The integral of cos * sin * factor up to the half angle, relative to the integral of cos * sin up to a
-/// right angle.
-double SpreadGrid::passed() const { return slope_ > 0 ? 1 - half_angle_ / std::tan(half_angle_) : 1; }
-
 bool BarnDoors::pass(const V2f& place, const V2f& half_size, const V3f& direction) const {
   if (!(length > 0)) return true;
   const V2f slope(direction.x / direction.z, direction.y / direction.z);
@@ -48,8 +32,9 @@ const Schema<BarnDoors>& BarnDoors::schema() {
   static const Schema<BarnDoors> table = [] {
     Schema<BarnDoors> s(
         "barn doors",
-        "Four flaps at the sides of a rectangle that keep its light from what is beside its beam. "
-        "They are not seen. Sides are named as seen from the emitting side.");
+        "Four flaps at the sides of a rectangle block the light beside its beam. The camera does not see "
+        "them. Sides are named as seen from the emitting side; a two-sided rectangle has the same flaps on "
+        "both sides.");
     s.set_example(R"(lights:
   key:
     type: rectangle
