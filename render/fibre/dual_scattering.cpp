@@ -33,15 +33,6 @@ struct BackscatterShape {
   }
 };
 
-/// See DualScattering::max_strands().
-float strands_in_the_way(const FibreAverageTable& table, const Rgb& color) {
-  float most = 0;
-  for (const float sin_theta : {-0.7f, 0.0f, 0.7f})
-    most = std::max(most, max_component(table.at(sin_theta, color).forward));
-  if (!(most > 0)) return 1;
-  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(most, 0.999f))), 1.0f, kMaxStrands);
-}
-
 }  // namespace
 
 float stack_backscatter(float forward, float backward) {
@@ -53,9 +44,34 @@ float stack_backscatter(float forward, float backward) {
 
 DualScattering::DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo,
                                const Rgb& color)
-    : table_(&table), frame_(tangent, wo), color_(color), max_strands_(strands_in_the_way(table, color)) {}
+    : table_(&table), frame_(tangent, wo), color_(color) {}
+
+float DualScattering::max_strands(const V3f& wi) const {
+  const float left = max_component(table_->at(frame_.angles(wi).sin_theta, color_).forward);
+  if (!(left > 0)) return 1;
+  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(left, 0.999f))), 1.0f, kMaxStrands);
+}
+
+Rgb DualScattering::likely(const V3f& wi) const {
+  const FibreAngles in = frame_.angles(wi);
+  const FibreAverages fibre = table_->at(in.sin_theta, color_);
+  const float lobe = LongitudinalLobe(fibre.forward_variance + fibre.backward_variance)
+                         .density(in.sin_theta, in.cos_theta, frame_.sin_theta_o(), frame_.cos_theta_o());
+  const float backward = (1 + std::cos(in.phi)) / (2 * kPi), forward = (1 - std::cos(in.phi)) / (2 * kPi);
+  Rgb scattered;
+  for (int c = 0; c < 3; ++c) {
+    const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
+    scattered[c] =
+        lobe * fibre.forward[c] * (forward * fibre.forward[c] + backward * (fibre.backward[c] + around));
+  }
+  return scattered;
+}
 
 FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float strands, float through) const {
+  FibreValue value = direct;
+  for (Rgb& lobes : value.lobes) lobes *= through;
+  const bool arrives = std::isfinite(strands);
+  if (!arrives && !(through > 0)) return value;
   const FibreAngles in = frame_.angles(wi);
   const FibreAverages fibre = table_->at(in.sin_theta, color_);
   const BackscatterShape shape(fibre);
@@ -66,15 +82,12 @@ FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float s
     const float cosine = std::sqrt(std::max(0.0f, 1 - sine * sine));
     return LongitudinalLobe(variance).density(in.sin_theta, in.cos_theta, sine, cosine);
   };
-  const bool arrives = std::isfinite(strands);
   const float spread = arrives ? strands * fibre.forward_variance : 0;
   const float back_now = through > 0 ? backward * lobe(shape.shift, shape.variance) : 0;
   const float back_spread =
       arrives && strands > 0 ? backward * lobe(shape.shift, shape.variance + spread) : 0;
   const float on = forward * lobe(fibre.forward_shift, fibre.forward_variance + spread);
   const float returned = backward * lobe(fibre.backward_shift, fibre.backward_variance + spread);
-  FibreValue value = direct;
-  for (Rgb& lobes : value.lobes) lobes *= through;
   for (int c = 0; c < 3; ++c) {
     const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
     const float crossed = arrives ? std::pow(fibre.forward[c], strands) : 0;

@@ -19,9 +19,9 @@ struct IesPhotometry {
   std::vector<float> candela;
 };
 
-/// Reads a photometric file of the formats LM-63-1986, 1991, 1995 and 2002 (IES). A missing last angle of
-/// 360 degrees is added. The effect of tilting a lamp (TILT) is ignored: it applies to lamps that are not
-/// mounted as usual.
+/// Reads a photometric file of the formats LM-63-1986, 1991, 1995 and 2002 (IES) [Iesna02]. A missing last
+/// angle of 360 degrees is added. The effect of tilting a lamp (TILT) is ignored: it applies to lamps that
+/// are not mounted as usual.
 ///
 /// Throws Error (kInput) with the line of the first mistake: numbers that are malformed, not finite or
 /// missing, angles in wrong order or of an unknown symmetry, candela below 0, no light at all. Also throws it

@@ -64,7 +64,7 @@ class ScatterPoint {
   void set_dual(const DualScattering& dual) { dual_ = dual; }
   /// Returns the scattering that light from `wi` may meet, to choose among lights; `value`: eval(wi).
   Rgb likely(const V3f& wi, const FibreValue& value) const {
-    return dual_ ? value.total() + dual_->eval({}, wi, 1, 0).total() : value.total();
+    return dual_ ? value.total() + dual_->likely(wi) : value.total();
   }
 
   /// Samples a direction from the lobes or, where there are magnets, towards one of them.

@@ -221,7 +221,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
 template <class Sink>
 FibreValue PathWalk<Sink>::dual_value(const DualScattering& dual, const FibreValue& direct, const Ray& shadow,
                                       SampleScratch& scratch) const {
-  const auto max = static_cast<uint32_t>(dual.max_strands());
+  const auto max = static_cast<uint32_t>(dual.max_strands(shadow.direction));
   const StrandCount between = scratch.strands_crossed(accel_, shadow, max);
   return dual.eval(direct, shadow.direction, between.strands, between.through);
 }

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/effort.h"
+
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -13,7 +15,7 @@
 namespace pelage {
 namespace {
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !PELAGE_SANITIZED
 
 constexpr size_t kBlock = size_t{64} << 10;  // a typical array of a chunk
 constexpr size_t kBlocks = 64;               // more than fit at the end of a fresh heap

@@ -13,6 +13,7 @@
 #include "base/temporary_folder.h"
 #include "tests/geom/random_strands.h"
 #include "tests/support/data.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -376,9 +377,7 @@ TEST_F(StrandFiles, ReadSintel) {
 }
 
 TEST_F(StrandFiles, OfManyStrandsNeedLittleMoreThanTheirOwnMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers keep memory of their own";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers keep memory of their own";
   RandomStrandOptions options;
   options.strands = 400000;
   options.min_points = options.max_points = 8;

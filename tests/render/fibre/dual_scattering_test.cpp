@@ -135,7 +135,21 @@ TEST_F(DualFibreLight, FadesWithTheStrandsBetween) {
   direct[LobeGroup::kPrimary] = Rgb(2);
   EXPECT_EQ(dual.eval(direct, V3f(0, 0, 1), kNone, 0)[LobeGroup::kPrimary], Rgb(0));
   EXPECT_EQ(dual.eval(direct, V3f(0, 0, 1), 0, 1)[LobeGroup::kPrimary], Rgb(2));
-  EXPECT_GT(dual.max_strands(), 5);
+  EXPECT_GT(dual.max_strands(V3f(0, 0, 1)), 5);
+}
+
+TEST_F(DualFibreLight, IsGuessedWellEnoughToChooseAmongLights) {
+  // Where the guess were far too low, chosen lights would count for far too much.
+  const DualScattering dual(table_, V3f(1, 0, 0), V3f(0.3f, std::sqrt(1 - 0.09f), 0), Rgb(1));
+  for (const float sine : {-0.9f, -0.5f, -0.2f, 0.0f, 0.4f}) {
+    for (const float phi : {0.1f, 1.5f, 3.0f}) {
+      const float cosine = std::sqrt(1 - sine * sine);
+      const V3f wi(sine, cosine * std::cos(phi), cosine * std::sin(phi));
+      const float exact = luminance(dual.eval({}, wi, 1, 0).total()), guess = luminance(dual.likely(wi));
+      EXPECT_GT(guess, 0.25f * exact) << sine << ' ' << phi;
+      EXPECT_LT(guess, 4 * exact + 0.02f) << sine << ' ' << phi;
+    }
+  }
 }
 
 TEST(DualScattering, BlackFibresBlockAtOnce) {
@@ -143,7 +157,7 @@ TEST(DualScattering, BlackFibresBlockAtOnce) {
   black.absorption = Rgb(50);
   const FibreAverageTable table{FibreMaterial(black)};
   const DualScattering dual(table, V3f(1, 0, 0), V3f(0, 1, 0), Rgb(0));
-  EXPECT_LE(dual.max_strands(), 3);
+  EXPECT_LE(dual.max_strands(V3f(0, 0, 1)), 3);
 }
 
 }  // namespace
