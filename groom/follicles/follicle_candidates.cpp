@@ -6,10 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/job.h"
 #include "base/stoppable_sort.h"
+#include "groom/follicles/keyed_sort.h"
 #include "groom/strands/rotation.h"
 
 namespace pelage {
@@ -122,23 +124,41 @@ CandidateSupply::CandidateSupply(const FollicleCandidates& source, size_t parts,
     survey_ = source_.survey(job);
     return;
   }
-  all_ = source_.make(job);
+  all_ = source_.make_ranked(job);
   for (const FollicleCandidate& candidate : all_) survey_.add(candidate);
   job.progress.advance(1);  // as much as a survey of its own
 }
 
 std::vector<FollicleCandidate> CandidateSupply::next(const Job& job) {
+  if (parts_ == 1) {
+    stoppable_sort(job, all_.begin(), all_.end(), [](const FollicleCandidate& a, const FollicleCandidate& b) {
+      return a.number < b.number;
+    });
+    return take_all();
+  }
   const auto border = [this](size_t part) { return (uint64_t(1) << 32) * part / parts_; };
-  std::vector<FollicleCandidate> candidates =
-      parts_ == 1 ? std::move(all_) : source_.make(job, {border(part_), border(part_ + 1)});
+  std::vector<FollicleCandidate> candidates = source_.make(job, {border(part_), border(part_ + 1)});
   ++part_;
   for (FollicleCandidate& candidate : candidates) candidate.number = static_cast<uint32_t>(supplied_++);
   return candidates;
 }
 
+std::vector<FollicleCandidate> CandidateSupply::take_all() {
+  PELAGE_CHECK(parts_ == 1 && part_ == 0);
+  part_ = 1;
+  supplied_ = all_.size();
+  return std::move(all_);
+}
+
+FollicleDensity::FollicleDensity(Field field, std::function<float(const FieldPoint& root)> coverage)
+    : field_(std::move(field)),
+      coverage_(std::move(coverage)),
+      uniform_(field_.is_constant() && !coverage_),
+      needs_normal_(coverage_ || field_.dependence().normal) {}
+
 float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& address,
                           const SurfacePoint& point) const {
-  if (is_uniform()) return std::max(field.value({}), 0.0f);
+  if (uniform_) return std::max(field_.value({}), 0.0f);
   FieldPoint place;
   place.rest = point.position;
   const V2f uv = topology.texture_coordinates(address.face, address.u, address.v);
@@ -146,9 +166,9 @@ float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& ad
   place.v = uv.y;
   place.face = address.face;
   place.face_uv = {address.u, address.v};
-  if (coverage || field.dependence().normal) place.normal = LimitSurface::frame_of(point).normal;
-  float value = field.value(place);
-  if (coverage && value > 0) value *= coverage(place);
+  if (needs_normal_) place.normal = LimitSurface::frame_of(point).normal;
+  float value = field_.value(place);
+  if (coverage_ && value > 0) value *= coverage_(place);
   return value > 0 && std::isfinite(value) ? value : 0.0f;
 }
 
@@ -201,6 +221,12 @@ uint64_t FollicleCandidates::stream(size_t face, uint64_t attempt) const {
 
 uint64_t FollicleCandidates::order_key(uint64_t attempt) const {
   return mix64(stream(face_of(attempt), attempt));
+}
+
+/// Order of candidates with the same random number.
+bool FollicleCandidates::precedes(uint64_t attempt, uint64_t other) const {
+  const uint64_t a = order_key(attempt), b = order_key(other);
+  return a != b ? a < b : attempt < other;
 }
 
 RootAddress FollicleCandidates::root(uint32_t attempt, V3f* position) const {
@@ -260,7 +286,8 @@ CandidateSurvey FollicleCandidates::survey(const Job& job) const {
   return result;
 }
 
-std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job, const CandidateShare& share) const {
+std::vector<FollicleCandidate> FollicleCandidates::make_by_attempt(const Job& job,
+                                                                   const CandidateShare& share) const {
   const uint64_t tries = first_.back();
   const double part_of_all = static_cast<double>(share.end - share.begin) * 0x1p-32;
   const auto expected = static_cast<uint64_t>(part_of_all * static_cast<double>(wanted_));
@@ -282,18 +309,39 @@ std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job, const Ca
     job.progress.advance(part_of_all * static_cast<double>(std::min(kGroup * kPart, tries - group)) /
                          static_cast<double>(tries));
   }
+  return result;
+}
+
+std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job, const CandidateShare& share) const {
+  std::vector<FollicleCandidate> result = make_by_attempt(job, share);
   stoppable_sort(job, result.begin(), result.end(),
                  [&](const FollicleCandidate& a, const FollicleCandidate& b) {
-                   if (a.number != b.number) return a.number < b.number;
-                   const uint64_t ka = order_key(a.attempt), kb = order_key(b.attempt);
-                   return ka != kb ? ka < kb : a.attempt < b.attempt;
+                   return a.number != b.number ? a.number < b.number : precedes(a.attempt, b.attempt);
                  });
+  return result;
+}
+
+std::vector<FollicleCandidate> FollicleCandidates::make_ranked(const Job& job) const {
+  std::vector<FollicleCandidate> result = make_by_attempt(job, {});
+  std::vector<SortItem> order(result.size());
+  for (uint32_t i = 0; i < order.size(); ++i) order[i] = {result[i].number, i};
+  sort_by_key(order, 32, job);
+  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && order[end].key == order[begin].key) ++end;
+    if (end - begin == 1) continue;
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+              order.begin() + static_cast<std::ptrdiff_t>(end), [&](const SortItem& a, const SortItem& b) {
+                return precedes(result[a.index].attempt, result[b.index].attempt);
+              });
+  }
+  for (uint32_t rank = 0; rank < order.size(); ++rank) result[order[rank].index].number = rank;
   return result;
 }
 
 uint32_t pack_normal(const V3f& normal) {
   const auto bits = [](float c) {
-    return static_cast<uint32_t>(std::lround((std::clamp(c, -1.0f, 1.0f) * 0.5f + 0.5f) * 1023.0f));
+    // As std::lround(): the sum is exact.
+    return static_cast<uint32_t>((std::clamp(c, -1.0f, 1.0f) * 0.5f + 0.5f) * 1023.0f + 0.5);
   };
   return bits(normal.x) | bits(normal.y) << 10 | bits(normal.z) << 20;
 }

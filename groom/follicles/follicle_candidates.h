@@ -16,14 +16,24 @@ namespace pelage {
 
 struct Job;
 
-/// Density of strands over a skin: a field, times a factor if operators restrict where the coat grows.
-struct FollicleDensity {
-  Field field{1.0f};
-  std::function<float(const FieldPoint& root)> coverage;  ///< the factor; may be empty
+/// Number of candidates made per follicle. More candidates pack the last follicles more tightly, at
+/// proportional cost.
+inline constexpr size_t kCandidatesPerFollicle = 6;
 
-  bool is_uniform() const { return field.is_constant() && !coverage; }
+/// Density of strands over a skin: a field, times a factor if operators restrict where the coat grows.
+class FollicleDensity {
+ public:
+  /// `coverage`: the factor; may be empty.
+  FollicleDensity(Field field = Field(1.0f), std::function<float(const FieldPoint& root)> coverage = {});
+
+  bool is_uniform() const { return uniform_; }
   /// Returns the density at a point of the skin, >= 0. A value that is not finite counts as 0.
   float at(const SurfaceTopology& topology, const RootAddress& address, const SurfacePoint& point) const;
+
+ private:
+  Field field_;
+  std::function<float(const FieldPoint& root)> coverage_;
+  bool uniform_, needs_normal_;  // asking the field takes as long as a value
 };
 
 /// A point of the skin where a follicle may grow. Small, because many candidates are in memory at a time.
@@ -91,6 +101,9 @@ class FollicleCandidates {
   /// Makes the candidates of a share, in order of their random numbers. All shares together have about
   /// `wanted` candidates; the exact number depends on the seed.
   std::vector<FollicleCandidate> make(const Job& job, const CandidateShare& share = {}) const;
+  /// Makes all candidates, in no particular order. Sets FollicleCandidate::number of each to its rank in
+  /// order of the random numbers. Faster than make().
+  std::vector<FollicleCandidate> make_ranked(const Job& job) const;
   /// Computes the survey of all candidates that make() returns, without keeping them in memory.
   CandidateSurvey survey(const Job& job) const;
   /// Returns the max number of candidates to expect when `wanted` are requested.
@@ -106,9 +119,12 @@ class FollicleCandidates {
   /// share.
   template <class Visit>
   void try_all(uint64_t begin, uint64_t end, const CandidateShare& share, const Visit& visit) const;
+  /// As make(), but in order of attempts.
+  std::vector<FollicleCandidate> make_by_attempt(const Job& job, const CandidateShare& share) const;
   size_t face_of(uint64_t attempt) const;
   uint64_t stream(size_t face, uint64_t attempt) const;
   uint64_t order_key(uint64_t attempt) const;
+  bool precedes(uint64_t attempt, uint64_t other) const;
 
   const LimitSurface& rest_;
   const FollicleDensity& density_;
@@ -140,11 +156,13 @@ class CandidateSupply {
   /// Returns the candidates of the next part. Sets FollicleCandidate::number of each to its rank among all
   /// candidates.
   std::vector<FollicleCandidate> next(const Job& job);
+  /// Returns all candidates at once, in no particular order. For use instead of next(), if there is one part.
+  std::vector<FollicleCandidate> take_all();
 
  private:
   const FollicleCandidates& source_;
   size_t parts_, part_ = 0, supplied_ = 0;
-  // if there is only one part: all candidates, until next() returns them
+  // if there is only one part: all candidates with their ranks, until next() or take_all() returns them
   std::vector<FollicleCandidate> all_;
   CandidateSurvey survey_;
 };

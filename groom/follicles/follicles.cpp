@@ -97,13 +97,14 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, co
     CandidateSupply supply(source, held.parts, job);
     all = supply.survey().count;
     if (all < count && !few_will_do) return std::nullopt;
-    const HeldCandidates max{held.parts, held.parts == 1 ? all : held.max_waiting};
+    const HeldCandidates max{held.parts, held.parts == 1 ? all : held.max_waiting, held.in_blocks};
     if (auto order = progressive_order(supply, count, mass, max, job)) return order;
   }
   // The skin is narrower than the distance between follicles: no candidate may be dropped.
   const HeldCandidates whole{held.parts, all};
-  const size_t more = progressive_order_bytes(source.wanted(), count, whole) -
-                      progressive_order_bytes(source.wanted(), count, held);
+  const size_t needed = progressive_order_bytes(source.wanted(), count, whole),
+               reserved = progressive_order_bytes(source.wanted(), count, held);
+  const size_t more = needed - std::min(needed, reserved);
   const MemoryCharge charge =
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(more),
               fmt::format("placing {} {} of {} on a narrow skin", count, options.noun, options.owner));

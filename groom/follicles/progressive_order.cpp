@@ -8,78 +8,20 @@
 #include <numeric>
 #include <utility>
 
-#include "base/hash.h"
 #include "base/release.h"
 #include "base/stoppable_sort.h"
+#include "groom/follicles/block_order.h"
+#include "groom/follicles/dart_radii.h"
+#include "groom/follicles/keyed_sort.h"
 #include "groom/follicles/octave_grid.h"
 #include "groom/follicles/waiting_candidates.h"
 
 namespace pelage {
 namespace {
 
-/// Ratio of the radii of consecutive levels: small steps keep prefixes that end within a level nearly
-/// optimal.
-constexpr double kShrink = 0.94;
-/// Fraction of the densest (hexagonal) packing that dart throwing is expected to reach.
-constexpr double kExpectedFill = 0.5;
+constexpr int kLevels = DartRadii::kLevels;
 /// Levels beyond the one that is expected to be the last.
 constexpr int kSpareLevels = 1;
-/// Min fraction of the expected number of follicles that is found, except at a few levels.
-constexpr double kFill = 0.5;
-/// Active candidates per expected follicle: a fifth more than the final number per follicle.
-constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
-/// Down to a radius of 1e-11 of the first: only coincident candidates remain.
-constexpr int kLevels = 400;
-
-/// A follicle found at the current level.
-struct Accepted {
-  uint32_t rank, attempt;
-};
-
-/// The radii of progressive dart throwing.
-class Radii {
- public:
-  explicit Radii(double area)
-      : area_(area), largest_(std::sqrt(kExpectedFill * area * 2.0 / std::sqrt(3.0))) {}
-
-  double at(int level) const { return level < kLevels ? largest_ * std::pow(kShrink, level) : 0.0; }
-  /// First level whose radius is at most `distance`.
-  int level_of(float distance) const {
-    if (!(distance > 0)) return kLevels;
-    const int level = static_cast<int>(std::ceil(std::log(distance / largest_) * (1.0 / std::log(kShrink))));
-    return std::clamp(level, 0, kLevels);
-  }
-  /// Expected number of follicles: hexagonal packing has 2 / (sqrt(3) r^2) points at distance r per unit
-  /// area.
-  double expected(double radius) const {
-    return kExpectedFill * area_ * 2.0 / (std::sqrt(3.0) * radius * radius);
-  }
-  /// The level at which `count` follicles are found on a skin that is much wider than their distance.
-  int last_level(size_t count) const {
-    return level_of(static_cast<float>(std::sqrt(kFill * expected(1.0) / static_cast<double>(count))));
-  }
-
- private:
-  double area_;
-  double largest_;  // for one expected follicle
-};
-
-/// Region of space of a candidate, for trying neighbours together: Morton code of cells with side 1 /
-/// `inverse`.
-uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse) {
-  const auto spread = [](float coordinate) {
-    auto x = static_cast<uint32_t>(std::clamp(coordinate, 0.0f, 1023.0f));
-    x = (x | x << 16) & 0x030000ff;
-    x = (x | x << 8) & 0x0300f00f;
-    x = (x | x << 4) & 0x030c30c3;
-    return (x | x << 2) & 0x09249249;
-  };
-  return spread((c.x - origin.x) * inverse) | spread((c.y - origin.y) * inverse) << 1 |
-         spread((c.z - origin.z) * inverse) << 2;
-}
-
-/// Room for the surplus of the last level, which is removed again.
-size_t with_overshoot(size_t count) { return count + count / 6; }
 
 /// One run of progressive_order().
 class DartThrowing {
@@ -91,8 +33,6 @@ class DartThrowing {
         count_(std::min(count, supply.survey().count)),
         grid_(supply.survey().smallest_spacing, with_overshoot(count_)),
         waiting_(kLevels + 1, max_waiting) {
-    const V3f size = supply.survey().box.size();
-    extent_ = std::max({size.x, size.y, size.z, 1e-30f});
     if (max_waiting < supply.survey().count) last_ = radii_.last_level(count_);
     order_.reserve(with_overshoot(count_));
   }
@@ -111,20 +51,18 @@ class DartThrowing {
   };
 
   bool throw_at(int level);
-  bool arrive(const V3f& origin, float inverse);
+  bool arrive(const DartRegions& regions);
   void hold_all(std::vector<FollicleCandidate> candidates);
   bool collect(int level, double radius);
   void make_room_to_try(size_t count);
   void measure_distances(int level, float radius);
   void accept_or_file(int level, float radius);
-  void append_accepted();
   void forget_the_hopeless(int level);
 
   CandidateSupply& supply_;
   const Job& job_;
-  const Radii radii_;
+  const DartRadii radii_;
   const size_t count_;
-  float extent_ = 0;
   int last_ = kLevels;  // candidates that wait for later levels are dropped
   double grid_radius_ = std::numeric_limits<double>::infinity();
   OctaveGrid grid_;
@@ -132,7 +70,7 @@ class DartThrowing {
   std::vector<uint32_t> arrived_;  // places of candidates that have not been tried yet, by rank
   size_t joined_ = 0;              // number of entries of arrived_ that have been tried
   std::vector<Tried> tried_;
-  std::vector<Accepted> accepted_;
+  std::vector<AcceptedDart> accepted_;
   std::vector<uint32_t> order_;
 };
 
@@ -155,7 +93,7 @@ bool DartThrowing::throw_at(int level) {
   measure_distances(level, static_cast<float>(radius));
   accept_or_file(level, static_cast<float>(radius));
   const size_t before = order_.size();
-  append_accepted();
+  append_at_random(job_, accepted_, order_);
   if (last_ < kLevels) forget_the_hopeless(level);
   job_.progress.advance(static_cast<double>(std::min(order_.size(), count_) - std::min(before, count_)) /
                         static_cast<double>(count_));
@@ -164,19 +102,17 @@ bool DartThrowing::throw_at(int level) {
 
 /// Collects the candidates to try at a level, sorted so that neighbours are adjacent.
 bool DartThrowing::collect(int level, double radius) {
-  // Regions contain some thousand follicles, so that those examined together stay in the cache.
   const CandidateSurvey& survey = supply_.survey();
-  const float inverse =
-      std::min(1.0f / (64.0f * static_cast<float>(radius) * survey.smallest_spacing), 1023.0f / extent_);
-  const double join = std::min(kTakePart * radii_.expected(radius) + 1, static_cast<double>(survey.count));
+  const auto regions = DartRegions::of_level(survey, radius);
+  const double join = radii_.joining(radius, survey.count);
   while (static_cast<double>(supply_.supplied()) < join && !supply_.ended()) {
-    if (!arrive(survey.box.min, inverse)) return false;
+    if (!arrive(regions)) return false;
   }
   size_t joining = joined_;
   while (joining < arrived_.size() && static_cast<double>(waiting_.rank(arrived_[joining])) < join) ++joining;
   make_room_to_try(waiting_.size(level) + joining - joined_);
   const auto add = [&](uint32_t place) {
-    tried_.push_back({region_of(waiting_[place], survey.box.min, inverse), waiting_.rank(place), place});
+    tried_.push_back({regions(waiting_[place]), waiting_.rank(place), place});
   };
   waiting_.take(level, add);
   for (; joined_ < joining; ++joined_) add(arrived_[joined_]);
@@ -192,7 +128,7 @@ void DartThrowing::make_room_to_try(size_t count) {
 }
 
 /// Takes in the next candidates, except those that are too close to a follicle even at the last level.
-bool DartThrowing::arrive(const V3f& origin, float inverse) {
+bool DartThrowing::arrive(const DartRegions& regions) {
   std::vector<FollicleCandidate> candidates = supply_.next(job_);
   if (candidates.size() == supply_.survey().count && last_ == kLevels) {
     hold_all(std::move(candidates));
@@ -202,7 +138,7 @@ bool DartThrowing::arrive(const V3f& origin, float inverse) {
   if (last_ < kLevels && !order_.empty()) {
     make_room_to_try(candidates.size());
     for (uint32_t i = 0; i < candidates.size(); ++i)
-      tried_.push_back({region_of(candidates[i], origin, inverse), candidates[i].number, i});
+      tried_.push_back({regions(candidates[i]), candidates[i].number, i});
     stoppable_sort(job_, tried_.begin(), tried_.end(), std::less<>());
     job_.for_each(tried_.size(), 4096, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
@@ -269,20 +205,9 @@ void DartThrowing::accept_or_file(int level, float radius) {
 void DartThrowing::forget_the_hopeless(int level) {
   if (order_.size() < std::max<size_t>(count_ / 50, 1000)) return;
   const double growth = std::max(static_cast<double>(count_) / static_cast<double>(order_.size()), 1.0);
-  const int left = static_cast<int>(std::ceil(std::log(growth) / (-2 * std::log(kShrink))));
+  const int left = static_cast<int>(std::ceil(std::log(growth) / (-2 * std::log(DartRadii::kShrink))));
   last_ = std::min(last_, level + left + kSpareLevels);
   waiting_.drop_from(last_ + 1);
-}
-
-/// Orders the follicles of a level at random: their order must not depend on their positions.
-void DartThrowing::append_accepted() {
-  stoppable_sort(job_, accepted_.begin(), accepted_.end(), [](const Accepted& a, const Accepted& b) {
-    const uint64_t ha = hash64(a.rank, random_use("follicle order")),
-                   hb = hash64(b.rank, random_use("follicle order"));
-    return ha != hb ? ha < hb : a.rank < b.rank;
-  });
-  for (const Accepted& accepted : accepted_) order_.push_back(accepted.attempt);
-  accepted_.clear();
 }
 
 }  // namespace
@@ -302,18 +227,26 @@ HeldCandidates HeldCandidates::fastest(size_t candidates, size_t count) {
 }
 
 size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held) {
+  if (held.in_blocks) return block_order_bytes(candidates, count);
   // A level tries fewer candidates than there are follicles, or at most all that are held.
   const size_t part = FollicleCandidates::max_of(candidates / held.parts);
   const size_t tried = std::min(held.max_waiting, count);
   const size_t waiting = held.parts == 1 ? 0 : held.max_waiting;  // the only part waits where it was made
   constexpr size_t kArrivedBytes = 4, kTriedBytes = 16;
-  return part * (sizeof(FollicleCandidate) + kArrivedBytes) + waiting * WaitingCandidates::kItemBytes +
-         tried * kTriedBytes + OctaveGrid::bytes(with_overshoot(count), count) +
-         with_overshoot(count) * sizeof(uint32_t);
+  const size_t choosing = part * (sizeof(FollicleCandidate) + kArrivedBytes) +
+                          waiting * WaitingCandidates::kItemBytes + tried * kTriedBytes +
+                          OctaveGrid::bytes(with_overshoot(count), count) +
+                          with_overshoot(count) * sizeof(uint32_t);
+  const size_t ranking = held.parts == 1 ? part * (sizeof(FollicleCandidate) + 2 * sizeof(SortItem)) : 0;
+  return std::max(choosing, ranking);
 }
 
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
                                                        const HeldCandidates& held, const Job& job) {
+  if (held.in_blocks) {
+    const CandidateSurvey survey = supply.survey();
+    return block_order(supply.take_all(), survey, count, area, job);
+  }
   DartThrowing darts(supply, count, area, held.max_waiting, job);
   if (!darts.run()) return std::nullopt;
   return std::move(darts).order();

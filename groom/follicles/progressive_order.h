@@ -11,17 +11,16 @@ namespace pelage {
 
 struct Job;
 
-/// Number of candidates made per follicle. More candidates pack the last follicles more tightly, at
-/// proportional cost.
-inline constexpr size_t kCandidatesPerFollicle = 6;
-
 /// Limits of the candidates that are in memory at a time.
 struct HeldCandidates {
   size_t parts = 1;        ///< number of parts in which candidates are made (CandidateSupply)
   size_t max_waiting = 0;  ///< max number of candidates that wait for their next test
+  /// Whether candidates are tried in blocks (block_order.h), which is faster. Requires one part, and room for
+  /// all candidates.
+  bool in_blocks = false;
 
-  /// Holds all candidates at once. The choice then never fails.
-  static HeldCandidates all(size_t candidates) { return {1, candidates}; }
+  /// Holds all candidates at once.
+  static HeldCandidates all(size_t candidates) { return {1, candidates, true}; }
   /// Holds as few candidates as suffice to choose `count` follicles on almost any skin.
   static HeldCandidates least(size_t candidates, size_t count);
   /// Returns the fastest limits: all() for up to two million candidates, least() for more.
@@ -47,6 +46,8 @@ struct HeldCandidates {
 /// even at the final radius. Dropping them does not change the result. The final radius is predicted from the
 /// number of follicles, which grows as 1 / radius^2. On a skin that is narrower than the distance between
 /// follicles, this prediction may be wrong, and dropped candidates may be needed. The result is then empty.
+/// The result is also empty when blocks of candidates would need more memory than progressive_order_bytes(),
+/// which only happens on strange skins. It is never empty for {parts, number of candidates, false}.
 ///
 /// Making and sorting candidates is parallel, and so are the tests against follicles of earlier levels. Only
 /// the few candidates that pass are tested in order. Throws Error (kStopped) when the job is stopped.
