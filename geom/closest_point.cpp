@@ -2,7 +2,9 @@
 #include "geom/closest_point.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -13,24 +15,55 @@ namespace pelage {
 
 namespace {
 
-constexpr uint32_t kWidth = 4;
+constexpr uint32_t kPacket = 4;           // triangles that are tested together
+constexpr uint32_t kWidth = 2 * kPacket;  // children of a node
 constexpr uint32_t kTrianglesPerCheck = 4096;
 constexpr uint32_t kLeaf = 1u << 31;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-/// Boxes of up to four children, one per lane. Lanes without a child have an empty box at infinite distance.
-struct Node {
+/// One lane in all lanes.
+template <int kLane>
+Four spread(Four v) {
+  return __builtin_shufflevector(v, v, kLane, kLane, kLane, kLane);
+}
+
+struct FourBoxes {
   FourVectors low, high;
-  uint32_t child[kWidth];  // a node, or kLeaf and a packet
 };
 
-/// Squares of the distances from a point to four boxes.
-Four box_distances(const Node& node, const FourVectors& point) {
-  const FourVectors below = node.low - point, above = point - node.high;
+/// Boxes of up to eight children, one per lane, in a space whose z axis is the mean normal of the triangles:
+/// there, boxes of a smooth skin are flat. Lanes without a child have an empty box at infinite distance.
+struct Node {
+  Four origin{};                            // x, y, z, 0
+  Four axes[3] = {{1}, {0, 1}, {0, 0, 1}};  // images of the axes of the mesh's space
+  FourBoxes boxes[kWidth / kPacket];
+  uint32_t child[kWidth];  // a node, or kLeaf and a packet
+
+  Four to_local(Four point) const {
+    const Four d = point - origin;
+    return axes[0] * spread<0>(d) + axes[1] * spread<1>(d) + axes[2] * spread<2>(d);
+  }
+};
+
+/// Squares of the distances from a point to four boxes, or a bit less, because of the rounding of far points.
+Four box_distances(const FourBoxes& boxes, const FourVectors& point) {
+  const FourVectors below = boxes.low - point, above = point - boxes.high;
   const FourVectors outside{larger(larger(below.x, above.x), four(0)),
                             larger(larger(below.y, above.y), four(0)),
                             larger(larger(below.z, above.z), four(0))};
-  return outside.dot(outside);
+  return outside.dot(outside) * four(0.99999f);
+}
+
+/// One bit per lane: whether `a` is at most `b`. Tests of single lanes would be mispredicted.
+uint32_t at_most(Four a, float b) {
+  const auto lanes = a <= four(b);
+#ifdef __SSE__
+  return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(lanes)));
+#else
+  uint32_t bits = 0;
+  for (uint32_t lane = 0; lane < kPacket; ++lane) bits |= lanes[lane] ? 1u << lane : 0u;
+  return bits;
+#endif
 }
 
 /// Component of vectors by axis.
@@ -45,8 +78,8 @@ struct ClosestPointTree::Impl {
   };
   /// Data of a triangle during the build.
   struct Item {
-    Box3f box;
-    V3f centre;
+    V3f centre;  // of the box of the triangle
+    V3f normal;  // as long as twice the area
     uint32_t triangle;
   };
 
@@ -57,18 +90,20 @@ struct ClosestPointTree::Impl {
     std::vector<Item> items(count);
     float farthest = 0;
     for (uint32_t t = 0; t < count; ++t) {
-      for (uint32_t i = 0; i < 3; ++i) {
-        const V3f p = corner(t, i);
-        items[t].box.extendBy(p);
+      const V3f corners[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
+      Box3f box;
+      for (const V3f& p : corners) {
+        box.extendBy(p);
         farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       }
-      items[t].centre = items[t].box.center();
+      items[t].centre = box.center();
+      items[t].normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
       items[t].triangle = t;
     }
     // Nearest points outside of their box because of rounding must not be missed.
     pad = 1e-6f * farthest;
-    packets.reserve(count / kWidth + 1);
-    nodes.reserve(count / (kWidth * 2) + 1);
+    packets.reserve(count / kPacket + 1);
+    nodes.reserve(count / (kPacket * 4) + 1);
     root = build(items, {0, count});
     job = nullptr;
   }
@@ -92,7 +127,7 @@ struct ClosestPointTree::Impl {
     Box3f centres;
     for (uint32_t i = range.begin; i < range.end; ++i) centres.extendBy(items[i].centre);
     const auto axis = centres.majorAxis();
-    const uint32_t middle = range.begin + (range.size() / 2 + kWidth - 1) / kWidth * kWidth;
+    const uint32_t middle = range.begin + (range.size() / 2 + kPacket - 1) / kPacket * kPacket;
     std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
                      [&](const Item& a, const Item& b) {
                        const float x = a.centre[axis], y = b.centre[axis];
@@ -103,31 +138,59 @@ struct ClosestPointTree::Impl {
     return rest;
   }
 
+  /// Returns a node without children, whose space lies along the skin if most triangles face the same way.
+  static Node space_of(const std::vector<Item>& items, Range range) {
+    constexpr float kMostly = 0.5f;
+    V3f sum(0);
+    float total = 0;
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      sum += items[i].normal;
+      total += items[i].normal.length();
+    }
+    Node node;
+    const V3f& centre = items[range.begin].centre;
+    if (std::isfinite(centre.x + centre.y + centre.z)) node.origin = Four{centre.x, centre.y, centre.z, 0};
+    if (!(sum.length() > kMostly * total)) return node;
+    const V3f z = sum.normalized();
+    const V3f x = z.cross(std::fabs(z.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized(), y = z.cross(x);
+    for (int k = 0; k < 3; ++k) node.axes[k] = Four{x[k], y[k], z[k], 0};
+    return node;
+  }
+
   uint32_t build(std::vector<Item>& items, Range range) {
-    if (range.size() <= kWidth) return make_packet(items, range);
+    if (range.size() <= kPacket) return make_packet(items, range);
     if (job && range.size() > kTrianglesPerCheck) job->check_stop();
+    const Range all = range;
     Range children[kWidth] = {range};
     uint32_t count = 1;
     while (count < kWidth) {
       Range* largest = std::max_element(children, children + count,
                                         [](const Range& a, const Range& b) { return a.size() < b.size(); });
-      if (largest->size() <= kWidth) break;
+      if (largest->size() <= kPacket) break;
       children[count] = split(items, *largest);
       ++count;
     }
     const auto index = static_cast<uint32_t>(nodes.size());
     nodes.emplace_back();
+    Node node = space_of(items, all);
     for (uint32_t lane = 0; lane < kWidth; ++lane) {
-      Box3f box;
-      if (lane < count) {
-        for (uint32_t i = children[lane].begin; i < children[lane].end; ++i) box.extendBy(items[i].box);
+      constexpr float kFar = std::numeric_limits<float>::infinity();
+      Four low = four(kFar), high = lane < count ? four(-kFar) : four(kFar);
+      for (uint32_t i = children[lane].begin; lane < count && i < children[lane].end; ++i) {
+        for (uint32_t k = 0; k < 3; ++k) {
+          const V3f p = corner(items[i].triangle, k);
+          const Four local = node.to_local(Four{p.x, p.y, p.z, 0});
+          low = smaller(local - four(pad), low);  // not numbers are ignored
+          high = larger(local + four(pad), high);
+        }
       }
       for (int axis = 0; axis < 3; ++axis) {
-        constexpr float kFar = std::numeric_limits<float>::infinity();
-        axis_of(nodes[index].low, axis)[lane] = lane < count ? box.min[axis] - pad : kFar;
-        axis_of(nodes[index].high, axis)[lane] = lane < count ? box.max[axis] + pad : kFar;
+        FourBoxes& boxes = node.boxes[lane / kPacket];
+        axis_of(boxes.low, axis)[lane % kPacket] = low[axis];
+        axis_of(boxes.high, axis)[lane % kPacket] = high[axis];
       }
     }
+    nodes[index] = node;
     for (uint32_t lane = 0; lane < kWidth; ++lane) {
       const uint32_t child = lane < count ? build(items, children[lane]) : kNone;
       nodes[index].child[lane] = child;
@@ -137,7 +200,7 @@ struct ClosestPointTree::Impl {
 
   uint32_t make_packet(const std::vector<Item>& items, Range range) {
     TrianglePacket packet;
-    for (uint32_t lane = 0; lane < kWidth; ++lane) {
+    for (uint32_t lane = 0; lane < kPacket; ++lane) {
       // The last triangle fills unused lanes.
       const uint32_t triangle = items[std::min(range.begin + lane, range.end - 1)].triangle;
       packet.triangle[lane] = triangle;
@@ -156,9 +219,9 @@ struct ClosestPointTree::Impl {
       uint32_t child;
       float distance;
     };
-    const FourVectors lanes{four(point.x), four(point.y), four(point.z)};
-    // Every level leaves at most three children pending.
-    Visit stack[3 * 32];
+    const Four place{point.x, point.y, point.z, 0};
+    // Every level leaves at most seven children pending.
+    Visit stack[(kWidth - 1) * 32];
     size_t depth = 0;
     float best = limit;
     uint32_t found = kNone;
@@ -168,7 +231,8 @@ struct ClosestPointTree::Impl {
         if (now.child & kLeaf) {
           const TrianglePacket& packet = packets[now.child & ~kLeaf];
           const Four distances = packet_distances(packet, point);
-          for (uint32_t lane = 0; lane < kWidth; ++lane) {
+          for (uint32_t near = at_most(distances, best); near != 0; near &= near - 1) {
+            const auto lane = static_cast<uint32_t>(std::countr_zero(near));
             const bool nearer =
                 distances[lane] < best || (distances[lane] == best && packet.triangle[lane] < found);
             if (nearer) {
@@ -178,11 +242,20 @@ struct ClosestPointTree::Impl {
           }
         } else {
           const Node& node = nodes[now.child];
-          const Four distances = box_distances(node, lanes);
+          const Four local = node.to_local(place);
+          const FourVectors lanes{spread<0>(local), spread<1>(local), spread<2>(local)};
+          alignas(Four) float distances[kWidth];
+          uint32_t near = 0;
+          for (uint32_t part = 0; part < kWidth / kPacket; ++part) {
+            const Four four = box_distances(node.boxes[part], lanes);
+            std::memcpy(distances + kPacket * part, &four, sizeof four);
+            near |= at_most(four, best) << (kPacket * part);
+          }
           // Nearest on top. A node as far as the best hit may contain a triangle with a lower number.
           const size_t bottom = depth;
-          for (uint32_t lane = 0; lane < kWidth; ++lane) {
-            if (!(distances[lane] <= best) || node.child[lane] == kNone) continue;
+          for (; near != 0; near &= near - 1) {
+            const auto lane = static_cast<uint32_t>(std::countr_zero(near));
+            if (node.child[lane] == kNone) continue;
             size_t at = depth++;
             for (; at > bottom && stack[at - 1].distance < distances[lane]; --at) stack[at] = stack[at - 1];
             stack[at] = {node.child[lane], distances[lane]};

@@ -46,11 +46,14 @@ struct Motion {
     if (poses) motion.poses = {poses->at(shown_at(frame)), poses->at(shown_at(frame + 1))};
     return motion;
   }
-  void add_pose(double time, PosedCages& cages) const {
-    const M44f matrix = to_world(character, time, origin);
+  std::vector<V3f> cage(double time, const M44f& matrix) const {
     std::vector<V3f> cage = poses ? poses->positions(shown_at(time)) : rest;
     for (V3f& point : cage) point *= matrix;
-    cages.cages.push_back(std::move(cage));
+    return cage;
+  }
+  void add_pose(double time, PosedCages& cages) const {
+    const M44f matrix = to_world(character, time, origin);
+    cages.cages.push_back(cage(time, matrix));
     cages.transforms.push_back(matrix);
   }
 };
@@ -138,6 +141,10 @@ Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets
   Box3f box;
   for (const V3f& point : posed.cages.front()) box.extendBy(point);
   return box;
+}
+
+std::vector<V3f> posed_cage(const FrameCharacter& character, size_t part, const Assets& assets, double time) {
+  return motion_of(character, part, assets).cage(time, to_world(character, time, V3f(0)));
 }
 
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,

@@ -24,7 +24,7 @@ struct TriangleSpace {
   TriangleSpace(const V3f& a, const V3f& b, const V3f& c) : origin(a) {
     const V3d edge = V3d(b) - origin;
     size = edge.length();
-    x = edge.normalized();
+    x = size > 0 ? edge / size : V3d(0);
     z = x.cross(V3d(c) - origin).normalized();
     y = z.cross(x);
   }
@@ -65,45 +65,49 @@ Sway::Sway(const SceneDescription& scene, const Assets& assets, const FrameChara
   }
 }
 
-const std::vector<Sway::Place>& Sway::places(int half) {
-  std::vector<Place>& places = known_[half];
-  if (!places.empty() || feet_.empty()) return places;
-  CameraParams instant;
-  instant.shutter = V2f(0);
-  const CharacterPose pose = pose_character(character_, part_, assets_, instant, 0.5 * half);
-  const std::vector<V3f>& cage = pose.shutter.cages.front();
-  places.reserve(feet_.size());
+Sway::Tips Sway::find_tips(int half) const {
+  const std::vector<V3f> cage = posed_cage(character_, part_, assets_, 0.5 * half);
+  Tips tips;
+  tips.reserve(3 * feet_.size());
   for (const Foot& foot : feet_) {
     const TriangleSpace space(cage[foot.corners[0]], cage[foot.corners[1]], cage[foot.corners[2]]);
-    places.push_back({space.to_world(foot.root), space.to_world(foot.tip)});
+    const V3d tip = space.to_world(foot.tip);
+    tips.insert(tips.end(), {tip.x, tip.y, tip.z});
   }
-  return places;
+  return tips;
+}
+
+const Sway::Tips& Sway::tips(int half) {
+  const auto found = known_.find(half);
+  return found != known_.end() ? found->second : known_[half] = find_tips(half);
 }
 
 GuideTurns Sway::at(int half) {
-  std::vector<V3d> lags(feet_.size(), V3d(0));
+  std::vector<double> lags(3 * feet_.size(), 0.0);
   const double quiet = frequency_ * std::sqrt(std::max(1e-6, 1 - damping_ * damping_));
   const double lasts = -std::log(kForgotten) / (std::max(1e-6, damping_) * frequency_ * step_);
   const int history = static_cast<int>(std::ceil(std::clamp(lasts, 1.0, double{kMaxHistory})));
   for (int k = 1; k <= history; ++k) {
-    const std::vector<Place>&after = places(half - k + 1), &here = places(half - k),
-          &before = places(half - k - 1);
+    const Tips &after = tips(half - k + 1), &here = tips(half - k), &before = tips(half - k - 1);
     const double age = k * step_;
     // Fades to 0 at the end of the history, so that a long vibration does not stop at once.
     const double past = static_cast<double>(k) / (history + 1), fade = 1 - past * past * past * past;
     const double answer = fade * std::exp(-damping_ * frequency_ * age) * std::sin(quiet * age) / quiet;
-    for (size_t g = 0; g < feet_.size(); ++g)
-      lags[g] -= (after[g].tip - here[g].tip * 2.0 + before[g].tip) * (answer / step_);
+    const double change = answer / step_;
+    for (size_t i = 0; i < lags.size(); ++i) lags[i] -= (after[i] - here[i] * 2.0 + before[i]) * change;
   }
+  const std::vector<V3f> cage = posed_cage(character_, part_, assets_, 0.5 * half);
   GuideTurns turns;
   turns.reserve(4 * feet_.size() * segments_);
   for (size_t g = 0; g < feet_.size(); ++g) {
-    const Place& place = places(half)[g];
-    const V3d along = place.tip - place.root;
-    const double length = along.length(), lag = lags[g].length();
+    const Foot& foot = feet_[g];
+    const TriangleSpace space(cage[foot.corners[0]], cage[foot.corners[1]], cage[foot.corners[2]]);
+    const V3d along = space.to_world(foot.tip) - space.to_world(foot.root);
+    const V3d behind(lags[3 * g], lags[3 * g + 1], lags[3 * g + 2]);
+    const double length = along.length(), lag = behind.length();
     Imath::Quatd full;
     if (length > 0 && lag > 0 && std::isfinite(lag)) {
-      const V3d to = along + lags[g] * std::min(1.0, kMostLag * length / lag);
+      const V3d to = along + behind * std::min(1.0, kMostLag * length / lag);
       full = smallest_turn(along / length, to.normalized());
     }
     for (size_t p = 0; p < segments_; ++p) {

@@ -27,10 +27,10 @@ class Sway {
     uint32_t corners[3];
     V3d root, tip;  // in the space of the triangle, relative to the length of its first edge
   };
-  struct Place {
-    V3d root, tip;  // as the skin carries them rigidly
-  };
-  const std::vector<Place>& places(int half);
+  /// Where the skin carries the tips rigidly: x, y and z of each.
+  using Tips = std::vector<double>;
+  Tips find_tips(int half) const;
+  const Tips& tips(int half);
 
   const Assets& assets_;
   const FrameCharacter& character_;
@@ -38,7 +38,7 @@ class Sway {
   size_t segments_;
   double step_, frequency_, damping_;
   std::vector<Foot> feet_;
-  std::map<int, std::vector<Place>> known_;
+  std::map<int, Tips> known_;
 };
 
 }  // namespace pelage

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
+#include "geom/four_lanes.h"
 #include "geom/limit_surface.h"
 #include "groom/operators/push_out.h"
+#include "groom/strands/near_roots.h"
 #include "groom/strands/part_lines.h"
 #include "groom/strands/strand_batch.h"
 
@@ -16,22 +19,80 @@ namespace pelage {
 namespace {
 
 constexpr size_t kMostGuides = 8;
+constexpr size_t kLanes = 4;
 
-struct Turn {
-  V3f v{0};
-  float w = 0;
-  void add(const float* q, float weight) {
-    v += V3f(q[0], q[1], q[2]) * weight;
-    w += q[3] * weight;
-  }
-  /// Difference between the turned vector and the vector.
-  V3f change_of(const V3f& x) const {
-    const float size2 = v.dot(v) + w * w;
-    if (!(size2 > 0)) return V3f(0);
-    const V3f t = v.cross(x) * 2.0f;
-    return (t * w + v.cross(t)) * (1 / size2);
-  }
+/// The guides that turn one strand, nearest first.
+struct Influences {
+  size_t count = 0;                             // 0: no guide is near
+  std::array<const float*, kMostGuides> turns;  // of the first segment of each
+  std::array<float, kMostGuides> weight;
 };
+
+Four load(const float* from) {
+  Four four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+void store(float* to, Four four) { std::memcpy(to, &four, sizeof four); }
+
+/// Rows become columns.
+void transpose(std::array<Four, 4>& m) {
+  const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
+             b = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7);
+  const Four c = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
+             d = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
+  m = {__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(a, c, 2, 3, 6, 7),
+       __builtin_shufflevector(b, d, 0, 1, 4, 5), __builtin_shufflevector(b, d, 2, 3, 6, 7)};
+}
+
+/// Returns the weighted sum (x, y, z, w) of the turns of a segment. Turns on the other half of the sphere of
+/// quaternions than that of the nearest guide count negative.
+Four mean_turn(const Influences& guides, size_t segment) {
+  Four sum = four(0);
+  const Four nearest = guides.count > 0 ? load(guides.turns[0] + 4 * segment) : sum;
+  for (size_t first = 0; first < guides.count; first += kLanes) {
+    const size_t last = std::min(first + kLanes, guides.count);
+    std::array<Four, kLanes> turns{};
+    for (size_t k = first; k < last; ++k) turns[k - first] = load(guides.turns[k] + 4 * segment);
+    std::array<Four, kLanes> parts = turns;
+    transpose(parts);
+    const Four cosine =
+        parts[0] * nearest[0] + parts[1] * nearest[1] + parts[2] * nearest[2] + parts[3] * nearest[3];
+    for (size_t k = first; k < last; ++k)
+      sum += turns[k - first] * (cosine[k - first] < 0 ? -guides.weight[k] : guides.weight[k]);
+  }
+  return sum;
+}
+
+/// Differences between turned vectors and the vectors. `turn`: x, y, z and w of quaternions of any length.
+FourVectors movement_of(const std::array<Four, 4>& turn, const FourVectors& x) {
+  const FourVectors v{turn[0], turn[1], turn[2]};
+  const Four w = turn[3], size2 = v.dot(v) + w * w;
+  const FourVectors t = v.cross(x) * four(2);
+  const FourVectors movement = (t * w + v.cross(t)) * (1 / size2);
+  const Four none = four(0);
+  return {size2 > 0 ? movement.x : none, size2 > 0 ? movement.y : none, size2 > 0 ? movement.z : none};
+}
+
+/// Finds the guides of a strand. `turns`: of all guides, from which the result points.
+template <class Accept>
+Influences find_influences(const NearRoots& roots, float max_radius, int neighbours, const V3f& root,
+                           const V3f& normal, const float* turns, size_t segments, const Accept& accept) {
+  std::array<RootGrid::Neighbour, kMostGuides + 1> near;
+  const int found = roots.nearest_if(root, normal, near.data(), accept);
+  Influences guides;
+  guides.count = static_cast<size_t>(std::min(found, neighbours));
+  if (guides.count == 0) return guides;
+  const float radius = found > neighbours ? near[guides.count].distance : max_radius;
+  float total = 0;
+  for (size_t k = 0; k < guides.count; ++k) {
+    guides.turns[k] = turns + 4 * (near[k].index * segments);
+    const float x = radius > 0 ? std::max(0.0f, 1 - near[k].distance / radius) : 0.0f;
+    total += guides.weight[k] = x * x;
+  }
+  if (!(total > 1e-12f)) std::fill_n(guides.weight.begin(), guides.count, 1.0f);
+  return guides;
+}
 
 /// Median distance from a root to the nearest other one, of a sample of the roots.
 float spacing_of(const std::vector<V3f>& roots, const std::vector<V3f>& normals, float otherwise) {
@@ -77,36 +138,35 @@ void MovingGuides::place(size_t count, const FollicleTree& coat, const LimitSurf
 void Follow::apply(StrandBatch& batch) const {
   if (!batch.turns) return;
   const auto segments = static_cast<size_t>(batch.segment_count());
-  std::array<RootGrid::Neighbour, kMostGuides + 1> near;
-  std::array<float, kMostGuides> weight;
-  for (size_t s = 0; s < batch.count; ++s) {
-    const V3f root = vector_at(batch.rest.position, s), normal = vector_at(batch.rest.normal, s);
-    const int found = guides_->roots.nearest_if(root, normal, neighbours_ + 1, near.data(), [&](uint32_t i) {
-      return !divides(parts_, root, normal, guides_->roots.position(i));
-    });
-    if (found == 0) continue;
-    const auto count = static_cast<size_t>(std::min(found, neighbours_));
-    const float radius = found > neighbours_ ? near[count].distance : guides_->roots.radius();
-    float total = 0;
-    for (size_t k = 0; k < count; ++k) {
-      const float x = radius > 0 ? std::max(0.0f, 1 - near[k].distance / radius) : 0.0f;
-      total += weight[k] = x * x;
+  NearRoots roots(guides_->roots, neighbours_ + 1);
+  roots.collect(batch.rest, batch.count);
+  for (size_t first = 0; first < batch.count; first += kLanes) {
+    std::array<Influences, kLanes> guides{};
+    for (size_t lane = 0; lane < kLanes && first + lane < batch.count; ++lane) {
+      const V3f root = vector_at(batch.rest.position, first + lane),
+                normal = vector_at(batch.rest.normal, first + lane);
+      guides[lane] = find_influences(
+          roots, guides_->roots.radius(), neighbours_, root, normal, batch.turns->data(), segments,
+          [&](uint32_t i) { return !divides(parts_, root, normal, guides_->roots.position(i)); });
     }
-    if (!(total > 1e-12f)) std::fill_n(weight.begin(), count, 1.0f);
-    V3f before = batch.offset(0, s), shift(0);  // a strand whose guides are not turned stays bit for bit
+    const auto offsets = [&](size_t point) {
+      const VectorRow& row = batch.points[point].offset;
+      return FourVectors{load(&row[0][first]), load(&row[1][first]), load(&row[2][first])};
+    };
+    // A strand whose guides are not turned stays bit for bit.
+    FourVectors before = offsets(0), shift{four(0), four(0), four(0)};
     for (size_t p = 0; p < segments; ++p) {
-      Turn turn;
-      const float* nearest = batch.turns->data() + 4 * (near[0].index * segments + p);
-      for (size_t k = 0; k < count; ++k) {
-        const float* q = batch.turns->data() + 4 * (near[k].index * segments + p);
-        const float cosine = q[0] * nearest[0] + q[1] * nearest[1] + q[2] * nearest[2] + q[3] * nearest[3];
-        turn.add(q, cosine < 0 ? -weight[k] : weight[k]);
-      }
-      const auto point = static_cast<int>(p + 1);
-      const V3f here = batch.offset(point, s);
-      shift += turn.change_of(here - before);
+      std::array<Four, kLanes> turns;
+      for (size_t lane = 0; lane < kLanes; ++lane) turns[lane] = mean_turn(guides[lane], p);
+      transpose(turns);
+      const FourVectors here = offsets(p + 1);
+      shift = shift + movement_of(turns, here - before);
       before = here;
-      batch.set_offset(point, s, here + shift);
+      VectorRow& row = batch.points[p + 1].offset;
+      const FourVectors moved = here + shift;
+      store(&row[0][first], moved.x);
+      store(&row[1][first], moved.y);
+      store(&row[2][first], moved.z);
     }
   }
 }

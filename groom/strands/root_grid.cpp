@@ -12,6 +12,7 @@ namespace pelage {
 RootGrid::RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float radius)
     : radius_(radius),
       inverse_cell_(1.0f / radius),
+      cell_(1 / static_cast<double>(inverse_cell_)),
       positions_(std::move(positions)),
       normals_(std::move(normals)) {
   PELAGE_CHECK(positions_.size() == normals_.size() && radius > 0);

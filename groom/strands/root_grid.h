@@ -21,7 +21,21 @@ class RootGrid {
   };
 
   /// Whether two normals differ by at most 60 degrees.
-  static bool same_side(const V3f& a, const V3f& b) { return a.dot(b) >= 0.5f; }
+  static bool same_side(const V3f& a, const V3f& b) { return a.dot(b) >= kLeastCosine; }
+  static constexpr float kLeastCosine = 0.5f;
+  static bool before(const Neighbour& a, const Neighbour& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
+  }
+  /// Squared distance beyond which no point is as near as this. Squares that differ by less may have the same
+  /// root.
+  static float farthest(float distance) { return distance * distance * 1.000001f; }
+  /// Inserts a point in the sorted list of the `count` nearest ones, of which no more than `wanted` are kept.
+  static void insert(const Neighbour& point, int wanted, Neighbour* nearest, int& count) {
+    if (count < wanted) ++count;
+    int at = count - 1;
+    for (; at > 0 && before(point, nearest[at - 1]); --at) nearest[at] = nearest[at - 1];
+    nearest[at] = point;
+  }
 
   RootGrid() = default;
   /// `positions` and `normals` describe the points. `radius` is the max distance of searches.
@@ -48,14 +62,26 @@ class RootGrid {
   /// Upper bound of bytes() divided by the number of points.
   static constexpr size_t kMaxBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
 
+  /// Calls visit(index) for every point within `distance`, which must not exceed the radius, and for some
+  /// that are a bit farther away, on all sides, in a fixed but arbitrary order.
+  template <class Visit>
+  void for_each_within(const V3f& position, float distance, const Visit& visit) const;
+
   /// Calls visit(index, squared distance) for every point within the radius, in a fixed but arbitrary order.
   template <class Visit>
   void for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const;
 
  private:
+  /// Calls look(x, y, z) for the cells within the radius whose squared distance is at most limit(), which may
+  /// fall in the meantime.
+  template <class Limit, class Look>
+  void for_each_cell(const V3f& position, const Limit& limit, const Look& look) const;
   size_t bucket(int64_t x, int64_t y, int64_t z) const;
   int64_t cell(float coordinate) const {
-    return static_cast<int64_t>(std::floor(static_cast<double>(coordinate) * inverse_cell_));
+    // std::floor() is slow without SSE 4.1.
+    const double at = static_cast<double>(coordinate) * inverse_cell_;
+    const auto toward_zero = static_cast<int64_t>(at);
+    return toward_zero - (at < static_cast<double>(toward_zero) ? 1 : 0);
   }
   bool is_in(const V3f& p, int64_t x, int64_t y, int64_t z) const {
     return cell(p.x) == x && cell(p.y) == y && cell(p.z) == z;
@@ -64,12 +90,13 @@ class RootGrid {
   /// exceeds the rounding of this function and of squared distances in float.
   double squared_gap(float coordinate, int64_t cell) const {
     const double at = static_cast<double>(coordinate) * inverse_cell_, low = static_cast<double>(cell);
-    const double gap = std::max({low - at, at - (low + 1), 0.0}) * (1 - 1e-5) / inverse_cell_;
+    const double gap = std::max({low - at, at - (low + 1), 0.0}) * ((1 - 1e-5) * cell_);
     return gap * gap;
   }
 
   float radius_ = 0;
   float inverse_cell_ = 0;
+  double cell_ = 0;  // size of a cell
   std::vector<V3f> positions_;
   std::vector<V3f> normals_;
   std::vector<uint32_t> first_;  // first item of each bucket; one more entry at the end
@@ -101,13 +128,49 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
   }
 }
 
+template <class Limit, class Look>
+void RootGrid::for_each_cell(const V3f& position, const Limit& limit, const Look& look) const {
+  // The cell of the query first: the other cells are then mostly farther away than what is found there.
+  const int64_t x = cell(position.x), y = cell(position.y), z = cell(position.z);
+  look(x, y, z);
+  const int64_t x0 = cell(position.x - radius_), x1 = cell(position.x + radius_);
+  const int64_t y0 = cell(position.y - radius_), y1 = cell(position.y + radius_);
+  const int64_t z0 = cell(position.z - radius_), z1 = cell(position.z + radius_);
+  for (int64_t k = z0; k <= z1; ++k) {
+    const double dz = squared_gap(position.z, k);
+    if (dz > limit()) continue;
+    for (int64_t j = y0; j <= y1; ++j) {
+      const double dzy = dz + squared_gap(position.y, j);
+      if (dzy > limit()) continue;
+      for (int64_t i = x0; i <= x1; ++i) {
+        if ((i == x && j == y && k == z) || dzy + squared_gap(position.x, i) > limit()) continue;
+        look(i, j, k);
+      }
+    }
+  }
+}
+
+template <class Visit>
+void RootGrid::for_each_within(const V3f& position, float distance, const Visit& visit) const {
+  const float far = distance * distance * 1.0001f;
+  const auto limit = [&] { return static_cast<double>(far); };
+  for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
+    const size_t b = bucket(x, y, z);
+    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+      const V3f& p = positions_[items_[k]];
+      if ((p - position).length2() <= far && is_in(p, x, y, z)) visit(items_[k]);
+    }
+  });
+}
+
 template <class Accept>
 bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& result,
                           const Accept& accept) const {
   if (positions_.empty()) return false;
   float best = radius_ * radius_;
   bool found = false;
-  const auto look = [&](int64_t x, int64_t y, int64_t z) {
+  const auto limit = [&] { return static_cast<double>(best); };
+  for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
     const size_t b = bucket(x, y, z);
     for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
       const uint32_t i = items_[k];
@@ -119,25 +182,7 @@ bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& res
       best = distance2;
       result.index = i;
     }
-  };
-  // The cell of the query first: the other cells are then mostly farther away than the best point.
-  const int64_t x = cell(position.x), y = cell(position.y), z = cell(position.z);
-  look(x, y, z);
-  const int64_t x0 = cell(position.x - radius_), x1 = cell(position.x + radius_);
-  const int64_t y0 = cell(position.y - radius_), y1 = cell(position.y + radius_);
-  const int64_t z0 = cell(position.z - radius_), z1 = cell(position.z + radius_);
-  for (int64_t k = z0; k <= z1; ++k) {
-    const double dz = squared_gap(position.z, k);
-    if (dz > best) continue;
-    for (int64_t j = y0; j <= y1; ++j) {
-      const double dzy = dz + squared_gap(position.y, j);
-      if (dzy > best) continue;
-      for (int64_t i = x0; i <= x1; ++i) {
-        if ((i == x && j == y && k == z) || dzy + squared_gap(position.x, i) > best) continue;
-        look(i, j, k);
-      }
-    }
-  }
+  });
   result.distance = std::sqrt(found ? best : 0.0f);
   return found;
 }
@@ -145,18 +190,24 @@ bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& res
 template <class Accept>
 int RootGrid::nearest_if(const V3f& position, const V3f& normal, int wanted, Neighbour* result,
                          const Accept& accept) const {
+  if (positions_.empty()) return 0;
   int count = 0;
-  const auto before = [](const Neighbour& a, const Neighbour& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
-  };
-  for_each_near(position, normal, [&](uint32_t i, float distance2) {
-    Neighbour candidate{i, std::sqrt(distance2)};
-    if (count == wanted && !before(candidate, result[count - 1])) return;
-    if (!accept(i)) return;
-    if (count < wanted) ++count;
-    int at = count - 1;
-    for (; at > 0 && before(candidate, result[at - 1]); --at) result[at] = result[at - 1];
-    result[at] = candidate;
+  float far = radius_ * radius_;  // squared distance beyond which no point is wanted
+  const auto limit = [&] { return static_cast<double>(far); };
+  for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
+    const size_t b = bucket(x, y, z);
+    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+      const uint32_t i = items_[k];
+      const V3f d = positions_[i] - position;
+      const float distance2 = d.dot(d);
+      if (distance2 > far || !same_side(normals_[i], normal)) continue;
+      const Neighbour candidate{i, std::sqrt(distance2)};
+      if (count == wanted && !before(candidate, result[count - 1])) continue;
+      // Several cells may share a bucket: skip places of other cells.
+      if (!is_in(positions_[i], x, y, z) || !accept(i)) continue;
+      insert(candidate, wanted, result, count);
+      if (count == wanted) far = std::min(far, farthest(result[count - 1].distance));
+    }
   });
   return count;
 }
