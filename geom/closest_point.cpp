@@ -100,10 +100,11 @@ struct ClosestPointTree::Impl {
       items[t].normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
       items[t].triangle = t;
     }
-    // Nearest points outside of their box because of rounding must not be missed.
-    pad = 1e-6f * farthest;
+    // Rounding must not put a nearest point outside of its box: that of a corner and that of the query in the
+    // space of the node, together up to 1.5e-6 of the largest coordinate, and that of packet_distances().
+    pad = 4e-6f * farthest;
     packets.reserve(count / kPacket + 1);
-    nodes.reserve(count / (kPacket * 4) + 1);
+    nodes.reserve(count / 7 + 2);  // the max, so that they are never copied
     root = build(items, {0, count});
     job = nullptr;
   }
@@ -150,7 +151,8 @@ struct ClosestPointTree::Impl {
     Node node;
     const V3f& centre = items[range.begin].centre;
     if (std::isfinite(centre.x + centre.y + centre.z)) node.origin = Four{centre.x, centre.y, centre.z, 0};
-    if (!(sum.length() > kMostly * total)) return node;
+    // A sum of denormal numbers has no exact direction.
+    if (!(sum.length() > std::max(kMostly * total, 1e-30f))) return node;
     const V3f z = sum.normalized();
     const V3f x = z.cross(std::fabs(z.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized(), y = z.cross(x);
     for (int k = 0; k < 3; ++k) node.axes[k] = Four{x[k], y[k], z[k], 0};

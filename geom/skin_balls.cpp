@@ -283,7 +283,7 @@ size_t SkinBalls::bytes() const {
 size_t SkinBalls::temporary_bytes(const SkinMesh& mesh) {
   // Per triangle: a tree and the columns of WindingNumbers for each motion key, building the last tree, edges
   // of is_closed().
-  const size_t per_triangle = (80 + 56) * static_cast<size_t>(mesh.motion_keys) + 48 + 36;
+  const size_t per_triangle = (100 + 56) * static_cast<size_t>(mesh.motion_keys) + 28 + 36;
   return mesh.triangle_count() * per_triangle + static_cast<size_t>(4 * kMaxCells) * 128;
 }
 

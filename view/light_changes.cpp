@@ -17,13 +17,22 @@ constexpr double kCones[] = {0.1, 170}, kSuns[] = {0.001, 180};  // degrees, as 
 
 std::vector<double> list(const V3f& v) { return {v.x, v.y, v.z}; }
 
+/// A point on the axis of the profile of a lamp. If the scene states none, the lamp shines straight down.
+V3f aim_of_profile(const PointLightParams& lamp, double frame) {
+  constexpr float kRadii =
+      20;  // from the lamp to a square in the picture that can be told from that of its size
+  return lamp.look_at ? lamp.look_at->at(frame) : lamp.position.at(frame) - V3f(0, kRadii * lamp.radius, 0);
+}
+
 /// The values of the keys that light_keys() names.
 template <class Params>
 std::map<std::string, std::vector<double>> values_of(const Params& light, double frame) {
   std::map<std::string, std::vector<double>> values;
   if constexpr (requires { light.position; }) values["position"] = list(light.position.at(frame));
-  // Not of a point, whose aim only turns its profile, and which may have none.
   constexpr bool is_aimed = requires { light.look_at.at(frame); };
+  if constexpr (std::is_same_v<Params, PointLightParams>) {
+    if (!light.profile.empty()) values["look_at"] = list(aim_of_profile(light, frame));
+  }
   if constexpr (is_aimed) values["look_at"] = list(light.look_at.at(frame));
   if constexpr (requires { light.direction; }) values["direction"] = list(light.direction.at(frame));
   if constexpr (is_aimed && requires { light.up; }) values["up"] = list(light.up);
@@ -95,7 +104,7 @@ const std::vector<LightKey>& light_keys(const std::string& type) {
         {"rectangle", {position, look_at, {"size", 2, kTiny, kFar}, intensity}},
         {"disk", {position, look_at, radius, intensity}},
         {"sphere", {position, radius, intensity}},
-        {"point", {position, radius, intensity}},
+        {"point", {position, look_at, radius, intensity}},
         {"spot", {position, look_at, radius, {"cone", 1, kCones[0], kCones[1]}, intensity}},
         {"sun", {{"direction", 3, -kFar, kFar}, {"angle", 1, kSuns[0], kSuns[1]}, intensity}},
         {"mesh", {}},

@@ -47,7 +47,7 @@ Box3f approximate_box(const FrameCharacter& character, size_t part, const Assets
 CharacterPose pose_character(const FrameCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame, const V3f& origin = V3f(0));
 
-/// Returns the cage of one part of a character at one time, in world space.
+/// Returns the cage of one part of a character at one time, in world space. `time`: a frame number.
 std::vector<V3f> posed_cage(const FrameCharacter& character, size_t part, const Assets& assets, double time);
 
 /// Returns the matrix M from the object space of a character to world space at a frame. Points are row

@@ -27,7 +27,7 @@ class Sway {
     uint32_t corners[3];
     V3d root, tip;  // in the space of the triangle, relative to the length of its first edge
   };
-  /// Where the skin carries the tips rigidly: x, y and z of each.
+  /// Positions of the tips if the skin carried them rigidly: x, y and z of each guide.
   using Tips = std::vector<double>;
   Tips find_tips(int half) const;
   const Tips& tips(int half);

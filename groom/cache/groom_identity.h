@@ -21,7 +21,7 @@ class FieldSkin;
 namespace growth_version {
 inline constexpr int kSkin = 2;     ///< limit surfaces and their frames (geom/)
 inline constexpr int kFields = 2;   ///< maps, ramps and noise (image/)
-inline constexpr int kStrands = 1;  ///< places of follicles; strands of a file and their roots
+inline constexpr int kStrands = 2;  ///< places of follicles; strands of a file and their roots
 inline constexpr int kPoints = 1;   ///< strands before the first operator
 inline constexpr int kFrozen = 1;   ///< rounding of frozen strands (groom/cache/strand_codes.h)
 inline constexpr int kPose = 1;     ///< finished strands in a pose (Groom::grow())

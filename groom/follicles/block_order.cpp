@@ -25,7 +25,7 @@ constexpr int kTidy = 4;
 /// Max number of entries in the lists of all blocks.
 size_t max_listed(size_t candidates, size_t count) { return 6 * count + candidates / kBlock * 32 + 4096; }
 
-/// Number of candidates that may pass the test of earlier levels at one level.
+/// Max number of candidates that pass the test against earlier follicles at one level.
 size_t max_passing(size_t candidates, size_t count) { return std::min(candidates, count / 4 + 1024); }
 
 /// Moves neighbours in space next to each other.
@@ -222,7 +222,8 @@ size_t block_order_bytes(size_t candidates, size_t count) {
   const size_t sorting = candidates * 2 * sizeof(SortItem);
   const size_t passing = max_passing(candidates, count);
   constexpr size_t kPassedBytes = 12, kDrawnBytes = 16;
-  const size_t running = candidates * sizeof(int16_t) + CandidateBlocks::tree_bytes(candidates) +
+  const size_t running = (candidates + candidates / kBlock + 1) * sizeof(int16_t) +
+                         CandidateBlocks::tree_bytes(candidates) +
                          CandidateBlocks::list_bytes(max_listed(candidates, count)) +
                          with_overshoot(count) * (sizeof(PlacedFollicle) + sizeof(uint32_t)) +
                          passing * (2 * kPassedBytes + kDrawnBytes + sizeof(AcceptedDart));

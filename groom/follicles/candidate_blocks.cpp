@@ -111,16 +111,16 @@ bool CandidateBlocks::visit(size_t level, size_t index, const PlacedFollicle& fo
   // All operations round monotonically, as those of nearest() do: a box is never farther away than a
   // candidate in it.
   const Group& group = levels_[level][index];
-  std::array<float, kFan> excess;
+  std::array<float, kFan> is_far;
   for (size_t i = 0; i < kFan; ++i) {
     const float dx = std::max({group.low[0][i] - follicle.x, follicle.x - group.high[0][i], 0.0f});
     const float dy = std::max({group.low[1][i] - follicle.y, follicle.y - group.high[1][i], 0.0f});
     const float dz = std::max({group.low[2][i] - follicle.z, follicle.z - group.high[2][i], 0.0f});
     const float limit = radius * std::min(follicle.spacing, group.spacing[i]);
-    excess[i] = dx * dx + dy * dy + dz * dz < limit * limit ? 0.0f : 1.0f;
+    is_far[i] = dx * dx + dy * dy + dz * dz < limit * limit ? 0.0f : 1.0f;
   }
   for (size_t i = 0; i < kFan; ++i) {
-    if (excess[i] != 0) continue;
+    if (is_far[i] != 0) continue;
     const size_t below = index * kFan + i;
     if (!(level == 0 ? list(below, number, radius) : visit(level - 1, below, follicle, number, radius)))
       return false;

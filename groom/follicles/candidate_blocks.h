@@ -18,8 +18,8 @@ struct PlacedFollicle {
   float spacing;
 };
 
-/// The follicles near a block of candidates, in the order in which a loop over four lanes reads them. Memory
-/// that one thread uses for one block after the other.
+/// The follicles near a block of candidates, in the order in which a loop over four lanes reads them. A
+/// thread uses this object for block after block.
 class NearFollicles {
  public:
   /// Removes all follicles. Makes room for `max`.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,14 +23,21 @@ class DartRadii {
   static constexpr int kLevels = 400;
 
   explicit DartRadii(double area)
-      : area_(area), largest_(std::sqrt(kExpectedFill * area * 2.0 / std::sqrt(3.0))) {}
+      : area_(area), largest_(std::sqrt(kExpectedFill * area * 2.0 / std::sqrt(3.0))) {
+    for (int level = 0; level <= kLevels; ++level) rounded_[level] = static_cast<float>(at(level));
+  }
 
   double at(int level) const { return level < kLevels ? largest_ * std::pow(kShrink, level) : 0.0; }
-  /// First level whose radius is at most `distance`.
+  /// First level at which a candidate at `distance` from the nearest follicle is not too close to it. Exact
+  /// for radii rounded to float, with which distances are compared: all methods must try it at the same
+  /// level.
   int level_of(float distance) const {
     if (!(distance > 0)) return kLevels;
-    const int level = static_cast<int>(std::ceil(std::log(distance / largest_) * (1.0 / std::log(kShrink))));
-    return std::clamp(level, 0, kLevels);
+    const double guess = std::ceil(std::log(distance / largest_) * (1.0 / std::log(kShrink)));
+    auto level = static_cast<int>(std::clamp(guess, 0.0, double{kLevels}));
+    while (level > 0 && distance >= rounded_[level - 1]) --level;
+    while (level < kLevels && distance < rounded_[level]) ++level;
+    return level;
   }
   /// Expected number of follicles: hexagonal packing has 2 / (sqrt(3) r^2) points at distance r per unit
   /// area.
@@ -40,7 +48,7 @@ class DartRadii {
   int last_level(size_t count) const {
     return level_of(static_cast<float>(std::sqrt(kFill * expected(1.0) / static_cast<double>(count))));
   }
-  /// At this radius, the candidates whose rank is smaller than this number, out of `all`, are tried.
+  /// Returns how many candidates, in the order of their ranks, are tried at this radius; at most `all`.
   double joining(double radius, size_t all) const {
     return std::min(kTakePart * expected(radius) + 1, static_cast<double>(all));
   }
@@ -55,6 +63,7 @@ class DartRadii {
 
   double area_;
   double largest_;  // for one expected follicle
+  std::array<float, kLevels + 1> rounded_;
 };
 
 /// Spreads the lower 10 bits of a coordinate, clamped to 0 .. 1023, so that two bits are between neighbours.

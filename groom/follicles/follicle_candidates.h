@@ -24,7 +24,8 @@ inline constexpr size_t kCandidatesPerFollicle = 6;
 class FollicleDensity {
  public:
   /// `coverage`: the factor; may be empty.
-  FollicleDensity(Field field = Field(1.0f), std::function<float(const FieldPoint& root)> coverage = {});
+  explicit FollicleDensity(Field field = Field(1.0f),
+                           std::function<float(const FieldPoint& root)> coverage = {});
 
   bool is_uniform() const { return uniform_; }
   /// Returns the density at a point of the skin, >= 0. A value that is not finite counts as 0.
@@ -33,7 +34,7 @@ class FollicleDensity {
  private:
   Field field_;
   std::function<float(const FieldPoint& root)> coverage_;
-  bool uniform_, needs_normal_;  // asking the field takes as long as a value
+  bool uniform_, needs_normal_;  // cached: asking the field costs as much as evaluating it
 };
 
 /// A point of the skin where a follicle may grow. Small, because many candidates are in memory at a time.
@@ -42,7 +43,8 @@ struct FollicleCandidate {
   uint32_t normal = 0;   ///< unit normal of the skin, see pack_normal()
   float spacing = 1;     ///< 1 / sqrt(density)
   uint32_t attempt = 0;  ///< number of the attempt that made it, see FollicleCandidates::root()
-  /// Random number by which candidates are sorted; after CandidateSupply::next(), rank in that order.
+  /// Random number by which candidates are sorted; after CandidateSupply::next() or take_all(), rank in that
+  /// order.
   uint32_t number = 0;
 };
 

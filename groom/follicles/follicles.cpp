@@ -100,14 +100,15 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, co
     const HeldCandidates max{held.parts, held.parts == 1 ? all : held.max_waiting, held.in_blocks};
     if (auto order = progressive_order(supply, count, mass, max, job)) return order;
   }
-  // The skin is narrower than the distance between follicles: no candidate may be dropped.
+  // Dropped candidates were needed, because the skin is narrower than the distance between follicles, or
+  // there was no room for the lists of blocks. The grid with all candidates always succeeds.
   const HeldCandidates whole{held.parts, all};
   const size_t needed = progressive_order_bytes(source.wanted(), count, whole),
                reserved = progressive_order_bytes(source.wanted(), count, held);
   const size_t more = needed - std::min(needed, reserved);
-  const MemoryCharge charge =
-      reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(more),
-              fmt::format("placing {} {} of {} on a narrow skin", count, options.noun, options.owner));
+  const MemoryCharge charge = reserve(
+      job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(more),
+      fmt::format("placing {} {} of {} with all their candidates", count, options.noun, options.owner));
   CandidateSupply supply(source, whole.parts, job);
   return progressive_order(supply, count, mass, whole, job);
 }

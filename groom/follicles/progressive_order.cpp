@@ -221,13 +221,13 @@ HeldCandidates HeldCandidates::least(size_t candidates, size_t count) {
 }
 
 HeldCandidates HeldCandidates::fastest(size_t candidates, size_t count) {
-  // Coats of up to 340,000 follicles, at most 88 MB. Others make their candidates twice, which takes longer.
+  // Coats of up to 340,000 follicles, at most 93 MB. Others make their candidates twice, which takes longer.
   constexpr size_t kFew = size_t(1) << 21;
   return candidates <= kFew ? all(candidates) : least(candidates, count);
 }
 
 size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held) {
-  if (held.in_blocks) return block_order_bytes(candidates, count);
+  if (held.in_blocks) return block_order_bytes(FollicleCandidates::max_of(candidates), count);
   // A level tries fewer candidates than there are follicles, or at most all that are held.
   const size_t part = FollicleCandidates::max_of(candidates / held.parts);
   const size_t tried = std::min(held.max_waiting, count);

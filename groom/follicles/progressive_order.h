@@ -19,7 +19,7 @@ struct HeldCandidates {
   /// all candidates.
   bool in_blocks = false;
 
-  /// Holds all candidates at once.
+  /// Holds all candidates at once, in blocks.
   static HeldCandidates all(size_t candidates) { return {1, candidates, true}; }
   /// Holds as few candidates as suffice to choose `count` follicles on almost any skin.
   static HeldCandidates least(size_t candidates, size_t count);
@@ -47,10 +47,11 @@ struct HeldCandidates {
 /// number of follicles, which grows as 1 / radius^2. On a skin that is narrower than the distance between
 /// follicles, this prediction may be wrong, and dropped candidates may be needed. The result is then empty.
 /// The result is also empty when blocks of candidates would need more memory than progressive_order_bytes(),
-/// which only happens on strange skins. It is never empty for {parts, number of candidates, false}.
+/// for example if the density has such steep steps that many blocks meet the same follicles. It is never
+/// empty for {parts, number of candidates, false}.
 ///
-/// Making and sorting candidates is parallel, and so are the tests against follicles of earlier levels. Only
-/// the few candidates that pass are tested in order. Throws Error (kStopped) when the job is stopped.
+/// Making candidates is parallel, and so are the tests against follicles of earlier levels. One thread sorts
+/// candidates by rank, and tests the few that pass in order. Throws Error (kStopped) when the job is stopped.
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
                                                        const HeldCandidates& held, const Job& job);
 

@@ -19,7 +19,7 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
     : points_(context.points) {
   constexpr double kMaxCentres = 4e6;
   const Job& job = context.job;
-  const double area = measure_surface(*context.rest, {}, job).area;
+  const double area = measure_surface(*context.rest, FollicleDensity(), job).area;
   const double wanted = area / (static_cast<double>(spacing) * spacing);
   if (!(wanted <= kMaxCentres)) {
     throw Error(ErrorKind::kInput, context.position,

@@ -18,14 +18,14 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostGuides = 8;
+constexpr size_t kMaxGuides = 8;
 constexpr size_t kLanes = 4;
 
 /// The guides that turn one strand, nearest first.
 struct Influences {
-  size_t count = 0;                             // 0: no guide is near
-  std::array<const float*, kMostGuides> turns;  // of the first segment of each
-  std::array<float, kMostGuides> weight;
+  size_t count = 0;                            // 0: no guide is near
+  std::array<const float*, kMaxGuides> turns;  // of the first segment of each
+  std::array<float, kMaxGuides> weight;
 };
 
 Four load(const float* from) {
@@ -45,8 +45,8 @@ void transpose(std::array<Four, 4>& m) {
        __builtin_shufflevector(b, d, 0, 1, 4, 5), __builtin_shufflevector(b, d, 2, 3, 6, 7)};
 }
 
-/// Returns the weighted sum (x, y, z, w) of the turns of a segment. Turns on the other half of the sphere of
-/// quaternions than that of the nearest guide count negative.
+/// Returns the weighted sum (x, y, z, w) of the turns of a segment. Negates turns in the hemisphere of
+/// quaternions opposite to the turn of the nearest guide: they mean the same rotation.
 Four mean_turn(const Influences& guides, size_t segment) {
   Four sum = four(0);
   const Four nearest = guides.count > 0 ? load(guides.turns[0] + 4 * segment) : sum;
@@ -64,7 +64,7 @@ Four mean_turn(const Influences& guides, size_t segment) {
   return sum;
 }
 
-/// Differences between turned vectors and the vectors. `turn`: x, y, z and w of quaternions of any length.
+/// Returns turned vectors minus the vectors. `turn`: x, y, z and w of quaternions of any length.
 FourVectors movement_of(const std::array<Four, 4>& turn, const FourVectors& x) {
   const FourVectors v{turn[0], turn[1], turn[2]};
   const Four w = turn[3], size2 = v.dot(v) + w * w;
@@ -78,7 +78,7 @@ FourVectors movement_of(const std::array<Four, 4>& turn, const FourVectors& x) {
 template <class Accept>
 Influences find_influences(const NearRoots& roots, float max_radius, int neighbours, const V3f& root,
                            const V3f& normal, const float* turns, size_t segments, const Accept& accept) {
-  std::array<RootGrid::Neighbour, kMostGuides + 1> near;
+  std::array<RootGrid::Neighbour, kMaxGuides + 1> near;
   const int found = roots.nearest_if(root, normal, near.data(), accept);
   Influences guides;
   guides.count = static_cast<size_t>(std::min(found, neighbours));

@@ -8,14 +8,14 @@
 namespace pelage {
 
 void NearRoots::collect(const RootRows& roots, size_t count) {
-  constexpr size_t kFewest = 8;  // strands that are worth the search
-  constexpr int kMostWanted = 16;
+  constexpr size_t kMinStrands = 8;  // strands that are worth the search
+  constexpr int kMaxWanted = 16;
   count_ = 0;
-  if (count < kFewest || wanted_ > kMostWanted) return;
+  if (count < kMinStrands || wanted_ > kMaxWanted) return;
   Box3f box;
   for (size_t s = 0; s < count; ++s) box.extendBy(vector_at(roots.position, s));
   centre_ = box.center();
-  std::array<RootGrid::Neighbour, kMostWanted> near;
+  std::array<RootGrid::Neighbour, kMaxWanted> near;
   const V3f normal = vector_at(roots.normal, 0);
   if (grid_.nearest(centre_, normal, wanted_, near.data()) < wanted_) return;
   // Nearly always enough for a strand at a corner of the box.
@@ -24,7 +24,7 @@ void NearRoots::collect(const RootRows& roots, size_t count) {
   distance_ = std::min(distance_, 0.99f * grid_.radius());
   size_t found = 0;
   grid_.for_each_within(centre_, distance_, [&](uint32_t i) {
-    if (found < kMost) {
+    if (found < kMaxPoints) {
       index_[found] = i;
       for (int axis = 0; axis < 3; ++axis) {
         position_[static_cast<size_t>(axis)][found] = grid_.position(i)[axis];
@@ -33,7 +33,7 @@ void NearRoots::collect(const RootRows& roots, size_t count) {
     }
     ++found;
   });
-  if (found > kMost) return;
+  if (found > kMaxPoints) return;
   count_ = found;
   for (; found % 4 != 0; ++found) {
     for (size_t axis = 0; axis < 3; ++axis) position_[axis][found] = normal_[axis][found] = 0;  // no side

@@ -17,7 +17,7 @@ namespace pelage {
 /// RootGrid::nearest_if().
 class NearRoots {
  public:
-  /// `wanted`: max number of points per strand. `grid` must outlive the object.
+  /// `wanted`: max number of points per strand, at least 1. `grid` must outlive the object.
   NearRoots(const RootGrid& grid, int wanted) : grid_(grid), wanted_(wanted) {}
 
   /// Collects the points around the first `count` strands.
@@ -27,8 +27,8 @@ class NearRoots {
                  const Accept& accept) const;
 
  private:
-  static constexpr size_t kMost = 128;
-  using Row = std::array<float, kMost>;
+  static constexpr size_t kMaxPoints = 128;
+  using Row = std::array<float, kMaxPoints>;
 
   static Four four_of(const Row& row, size_t first) {
     Four four;
@@ -52,7 +52,7 @@ class NearRoots {
   size_t count_ = 0;  // of the points that are collected; 0: none are, search the grid
   V3f centre_{0};
   float distance_ = 0;  // all points within this distance from the centre are collected
-  std::array<uint32_t, kMost> index_;
+  std::array<uint32_t, kMaxPoints> index_;
   std::array<Row, 3> position_, normal_;
 };
 
@@ -69,7 +69,7 @@ int NearRoots::nearest_if(const V3f& position, const V3f& normal, RootGrid::Neig
                           at;
     const FourVectors n{four_of(normal_[0], first), four_of(normal_[1], first), four_of(normal_[2], first)};
     const Four distance2 = d.dot(d), cosine = n.dot(up);
-    const auto wanted = (distance2 <= four(far)) & (cosine >= four(RootGrid::kLeastCosine));
+    const auto wanted = (distance2 <= four(far)) & (cosine >= four(RootGrid::kMinCosine));
     for (uint32_t lanes = bits_of(wanted); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
       const RootGrid::Neighbour candidate{index_[first + lane], std::sqrt(distance2[lane])};

@@ -21,13 +21,12 @@ class RootGrid {
   };
 
   /// Whether two normals differ by at most 60 degrees.
-  static bool same_side(const V3f& a, const V3f& b) { return a.dot(b) >= kLeastCosine; }
-  static constexpr float kLeastCosine = 0.5f;
+  static bool same_side(const V3f& a, const V3f& b) { return a.dot(b) >= kMinCosine; }
+  static constexpr float kMinCosine = 0.5f;
   static bool before(const Neighbour& a, const Neighbour& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
   }
-  /// Squared distance beyond which no point is as near as this. Squares that differ by less may have the same
-  /// root.
+  /// Returns an upper bound of the squared distances whose rounded root is at most `distance`.
   static float farthest(float distance) { return distance * distance * 1.000001f; }
   /// Inserts a point in the sorted list of the `count` nearest ones, of which no more than `wanted` are kept.
   static void insert(const Neighbour& point, int wanted, Neighbour* nearest, int& count) {
@@ -152,6 +151,7 @@ void RootGrid::for_each_cell(const V3f& position, const Limit& limit, const Look
 
 template <class Visit>
 void RootGrid::for_each_within(const V3f& position, float distance, const Visit& visit) const {
+  if (positions_.empty()) return;
   const float far = distance * distance * 1.0001f;
   const auto limit = [&] { return static_cast<double>(far); };
   for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {

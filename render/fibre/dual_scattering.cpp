@@ -55,8 +55,11 @@ float DualScattering::max_strands(const V3f& wi) const {
 Rgb DualScattering::likely(const V3f& wi) const {
   const FibreAngles in = frame_.angles(wi);
   const FibreAverages fibre = table_->at(in.sin_theta, color_);
-  const float lobe = LongitudinalLobe(fibre.forward_variance + fibre.backward_variance)
-                         .density(in.sin_theta, in.cos_theta, frame_.sin_theta_o(), frame_.cos_theta_o());
+  // One lobe that is as wide as both together, with their tilts.
+  const float width = fibre.forward_variance + fibre.backward_variance +
+                      fibre.forward_shift * fibre.forward_shift + fibre.backward_shift * fibre.backward_shift;
+  const float lobe =
+      LongitudinalLobe(width).density(in.sin_theta, in.cos_theta, frame_.sin_theta_o(), frame_.cos_theta_o());
   const float backward = (1 + std::cos(in.phi)) / (2 * kPi), forward = (1 - std::cos(in.phi)) / (2 * kPi);
   Rgb scattered;
   for (int c = 0; c < 3; ++c) {

@@ -25,8 +25,8 @@ class DualScattering {
   /// `direct`. Everything else is in the group `diffuse`. The density remains that of `direct`.
   FibreValue eval(const FibreValue& direct, const V3f& wi, float strands, float through) const;
 
-  /// Returns a rough guess of the light that the fibre scatters in total if its light from `wi` has crossed one
-  /// strand: to choose among lights, for less than half the time of eval().
+  /// Returns a rough guess of the light that the fibre scatters in total if its light from `wi` has crossed
+  /// one strand: to choose among lights, for less than half the time of eval().
   Rgb likely(const V3f& wi) const;
 
   /// Returns the number of strands that leave less than 3 % of the light from `wi`; at most 64.

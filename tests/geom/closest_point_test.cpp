@@ -221,6 +221,34 @@ TEST(ClosestPointTree, OddInputs) {
   EXPECT_GE(tree.bytes(), mesh.triangle_count() * 40);
 }
 
+TEST(ClosestPointTree, NormalsTooSmallForADirectionMeanNone) {
+  // Eight triangles almost without area along two segments. The sum of their normals is denormal.
+  const float u = std::numeric_limits<float>::denorm_min();
+  SkinMesh mesh;
+  const auto add = [&](const V3f& a, const V3f& b, const V3f& c) {
+    for (const V3f& p : {a, b, c}) {
+      mesh.triangles.push_back(static_cast<uint32_t>(mesh.positions.size() / 3));
+      mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z});
+      mesh.normals.insert(mesh.normals.end(), {0, 0, 1});
+    }
+  };
+  add({0, 0, -0.5f}, {0, 0, 0.5f}, {2 * u, u, 0});
+  for (int i = 0; i < 3; ++i) add({0, 0, -0.5f}, {0, 0, 0.5f}, {0, 0, 0});
+  for (int i = 0; i < 4; ++i) add({1, 0, 1.05f}, {1, 0, 2}, {1, 0, 1.5f});
+  ClosestPoint found;
+  ASSERT_TRUE(ClosestPointTree(mesh, 0).closest(V3f(1, 0, 0), kFar, found));
+  EXPECT_NEAR(found.distance, 1, 1e-6f);
+}
+
+TEST(ClosestPointTree, TakesNoMoreMemoryThanIsReserved) {
+  // SkinBalls::temporary_bytes() counts 100 bytes per triangle, with half a vertex each.
+  for (const int triangles : {1024, 4096, 5000, 8192, 20000, 32768}) {
+    const SkinMesh mesh = triangle_soup(triangles, 0.05f);
+    EXPECT_LE(ClosestPointTree(mesh, 0).bytes(), 94 * mesh.triangle_count() + 4 * mesh.vertex_count() + 4096)
+        << triangles;
+  }
+}
+
 TEST(ClosestPointTree, UsesTheKeyItIsMadeFor) {
   SkinMesh mesh = triangle_soup(20, 0.5f);
   const size_t floats = mesh.positions.size();

@@ -97,11 +97,12 @@ export function dragged(light, key, camera, view, x, y) {
   return {size: [axes.x, axes.y].map(axis => Math.max(2 * Math.abs(dot(local, axis)), 1e-5))};
 }
 
-// The values of a light that is turned about the point it shines at, or moved to another distance from it.
-export function orbited({values}, camera, view, yaw, pitch, factor = 1) {
+// The values of a light that is turned about the point it shines at, or moved to another distance from it. Points shine in
+// all directions, with a profile, too.
+export function orbited({type, values}, camera, view, yaw, pitch, factor = 1) {
   const turn = v => rotate(rotate(v, view.r, pitch), unit(camera.up), yaw).map(x => x * factor);
   if (values.direction) return {direction: unit(turn(values.direction))};
-  const pivot = values.look_at ?? camera.look_at;
+  const pivot = type === "point" ? camera.look_at : values.look_at ?? camera.look_at;
   return {position: add(pivot, turn(add(values.position, pivot, -1)))};
 }
 

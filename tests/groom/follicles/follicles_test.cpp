@@ -76,7 +76,7 @@ TEST(Follicles, EveryPrefixIsBlueNoise) {
     const FollicleTree tree = grow(*rest, static_cast<int64_t>(count));
     ASSERT_EQ(tree.size(), count);
     const std::vector<Placed> places = by_id(tree, *rest);
-    const double area = measure_surface(*rest, {}, QuietJob(1)).area;
+    const double area = measure_surface(*rest, FollicleDensity(), QuietJob(1)).area;
     for (size_t prefix = count; prefix >= 300; prefix /= 2) {
       // Largest possible distance of that many points: hexagons [Yuksel15, section 3.1].
       const double max = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * static_cast<double>(prefix)));
@@ -119,7 +119,7 @@ TEST(Follicles, LeavesAreCompact) {
   const auto rest = shapes::surface_of(shapes::ball_cage());
   const FollicleTree tree = grow(*rest, 20000, Field(1.0f), 300);
   // A leaf's share of the area would fit a square of this side.
-  const double area = measure_surface(*rest, {}, QuietJob(1)).area;
+  const double area = measure_surface(*rest, FollicleDensity(), QuietJob(1)).area;
   const double side = std::sqrt(area / static_cast<double>(tree.leaves().size()));
   double sum = 0;
   for (const FollicleTree::Leaf& leaf : tree.leaves()) {

@@ -110,7 +110,8 @@ TEST(ProgressiveOrder, OfANarrowSkinIsFoundWithoutForgetting) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
     const std::string message = error.what();
-    EXPECT_NE(message.find("placing 30000 strands of groom on a narrow skin"), std::string::npos) << message;
+    EXPECT_NE(message.find("placing 30000 strands of groom with all their candidates"), std::string::npos)
+        << message;
     const size_t megabytes = std::stoul(message.substr(message.find("--memory ") + 9));
     EXPECT_EQ(placed(few, static_cast<int64_t>(megabytes) << 20), few);
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/operators/follow.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "tests/groom/operator_harness.h"
 
 namespace pelage {
@@ -62,6 +66,65 @@ TEST_F(FollowTest, ASingleGuideTurnsItsStrandExactly) {
     const float* q = &turns_[4 * id * kSegments];
     const V3f v(q[0], q[1], q[2]), x = before->offset(1, s), t = v.cross(x) * 2.0f;
     EXPECT_LT((batch->offset(1, s) - (x + t * q[3] + v.cross(t))).length(), 1e-5f);
+  }
+}
+
+/// What Follow does, one strand after the other: the sum of all its guides' turns, by distance.
+std::vector<V3f> followed(const StrandBatch& batch, size_t s, const MovingGuides& guides,
+                          const GuideTurns& turns, size_t neighbours) {
+  const V3f root = vector_at(batch.rest.position, s), normal = vector_at(batch.rest.normal, s);
+  std::vector<std::pair<float, uint32_t>> near;
+  for (uint32_t g = 0; g < guides.follicles.size(); ++g) {
+    const float distance = (guides.roots.position(g) - root).length();
+    if (distance <= guides.roots.radius() && RootGrid::same_side(guides.roots.normal(g), normal))
+      near.emplace_back(distance, g);
+  }
+  std::sort(near.begin(), near.end());
+  const float radius = near.size() > neighbours ? near[neighbours].first : guides.roots.radius();
+  near.resize(std::min(near.size(), neighbours));
+  const auto segments = static_cast<size_t>(batch.segment_count());
+  std::vector<V3f> points{batch.offset(0, s)};
+  for (size_t p = 0; p < segments; ++p) {
+    V3f v(0);
+    float w = 0;
+    for (const auto& [distance, g] : near) {
+      const float* q = &turns[4 * (g * segments + p)];
+      const float* first = &turns[4 * (near[0].second * segments + p)];
+      const float x = std::max(0.0f, 1 - distance / radius);
+      const bool same = q[0] * first[0] + q[1] * first[1] + q[2] * first[2] + q[3] * first[3] >= 0;
+      const float weight = same ? x * x : -x * x;
+      v += weight * V3f(q[0], q[1], q[2]);
+      w += weight * q[3];
+    }
+    V3f segment = batch.offset(static_cast<int>(p) + 1, s) - batch.offset(static_cast<int>(p), s);
+    if (const float size2 = v.length2() + w * w; size2 > 0) {
+      const V3f t = 2.0f * v.cross(segment);
+      segment += (w * t + v.cross(t)) / size2;
+    }
+    points.push_back(points.back() + segment);
+  }
+  return points;
+}
+
+TEST_F(FollowTest, TurnsEachStrandByItsNearestGuides) {
+  for (size_t i = 0; i < turns_.size(); i += 8) {  // turns of both signs mean the same
+    for (size_t k = 0; k < 4; ++k) turns_[i + k] = -turns_[i + k];
+  }
+  for (const size_t neighbours : {1, 3, 4, 5, 8}) {
+    const Follow op(static_cast<int>(neighbours), guides_, "");
+    for (const size_t count : {size_t{kBlockStrands}, size_t{255}, size_t{1}}) {
+      auto batch = random_strands({}, 0, 5);
+      batch->count = std::min(batch->count, count);
+      const auto before = std::make_unique<StrandBatch>(*batch);
+      batch->turns = &turns_;
+      op.apply(*batch);
+      for (size_t s = 0; s < batch->count; ++s) {
+        const std::vector<V3f> expected = followed(*before, s, *guides_, turns_, neighbours);
+        for (int p = 0; p < batch->point_count(); ++p)
+          ASSERT_LT((batch->offset(p, s) - expected[static_cast<size_t>(p)]).length(), 2e-5f)
+              << neighbours << " guides, strand " << s << ", point " << p;
+      }
+    }
   }
 }
 
