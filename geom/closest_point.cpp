@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -52,18 +51,6 @@ Four box_distances(const FourBoxes& boxes, const FourVectors& point) {
                             larger(larger(below.y, above.y), four(0)),
                             larger(larger(below.z, above.z), four(0))};
   return outside.dot(outside) * four(0.99999f);
-}
-
-/// One bit per lane: whether `a` is at most `b`. Tests of single lanes would be mispredicted.
-uint32_t at_most(Four a, float b) {
-  const auto lanes = a <= four(b);
-#ifdef __SSE__
-  return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(lanes)));
-#else
-  uint32_t bits = 0;
-  for (uint32_t lane = 0; lane < kPacket; ++lane) bits |= lanes[lane] ? 1u << lane : 0u;
-  return bits;
-#endif
 }
 
 /// Component of vectors by axis.
@@ -233,7 +220,7 @@ struct ClosestPointTree::Impl {
         if (now.child & kLeaf) {
           const TrianglePacket& packet = packets[now.child & ~kLeaf];
           const Four distances = packet_distances(packet, point);
-          for (uint32_t near = at_most(distances, best); near != 0; near &= near - 1) {
+          for (uint32_t near = lane_bits(distances <= four(best)); near != 0; near &= near - 1) {
             const auto lane = static_cast<uint32_t>(std::countr_zero(near));
             const bool nearer =
                 distances[lane] < best || (distances[lane] == best && packet.triangle[lane] < found);
@@ -249,9 +236,9 @@ struct ClosestPointTree::Impl {
           alignas(Four) float distances[kWidth];
           uint32_t near = 0;
           for (uint32_t part = 0; part < kWidth / kPacket; ++part) {
-            const Four four = box_distances(node.boxes[part], lanes);
-            std::memcpy(distances + kPacket * part, &four, sizeof four);
-            near |= at_most(four, best) << (kPacket * part);
+            const Four squares = box_distances(node.boxes[part], lanes);
+            store_four(distances + kPacket * part, squares);
+            near |= lane_bits(squares <= four(best)) << (kPacket * part);
           }
           // Nearest on top. A node as far as the best hit may contain a triangle with a lower number.
           const size_t bottom = depth;

@@ -6,17 +6,6 @@
 #include <limits>
 
 namespace pelage {
-namespace {
-
-using FourBits = int32_t __attribute__((vector_size(16)));
-using TwoWords = int64_t __attribute__((vector_size(16)));
-
-bool any(FourBits mask) {
-  const auto words = reinterpret_cast<TwoWords>(mask);
-  return (words[0] | words[1]) != 0;
-}
-
-}  // namespace
 
 void NearFollicles::add(const PlacedFollicle& follicle) {
   const size_t lane = size_ % 4;
@@ -43,8 +32,8 @@ float NearFollicles::nearest(const FollicleCandidate& candidate, float radius) c
     const FourVectors d = at - group.at;
     const Four distance2 = d.dot(d), spacing = smaller(four(candidate.spacing), group.spacing);
     const Four limit = four(best) * spacing;
-    const FourBits closer = (distance2 < limit * limit) & (group.normal.dot(normal) >= four(0.5f));
-    if (!any(closer)) continue;
+    const FourTruths closer = (distance2 < limit * limit) & (group.normal.dot(normal) >= four(0.5f));
+    if (lane_bits(closer) == 0) continue;
     for (int lane = 0; lane < 4; ++lane) {
       if (closer[lane]) best = std::min(best, std::sqrt(distance2[lane]) / spacing[lane]);
     }
@@ -108,19 +97,11 @@ bool CandidateBlocks::add(const FollicleCandidate& candidate, float radius) {
 
 bool CandidateBlocks::visit(size_t level, size_t index, const PlacedFollicle& follicle, uint32_t number,
                             float radius) {
-  // All operations round monotonically, as those of nearest() do: a box is never farther away than a
-  // candidate in it.
   const Group& group = levels_[level][index];
-  std::array<float, kFan> is_far;
+  std::array<float, kFan> is_near;  // all at once, so that the compiler compares several lanes at a time
+  for (size_t i = 0; i < kFan; ++i) is_near[i] = group.meets(i, follicle, radius) ? 1.0f : 0.0f;
   for (size_t i = 0; i < kFan; ++i) {
-    const float dx = std::max({group.low[0][i] - follicle.x, follicle.x - group.high[0][i], 0.0f});
-    const float dy = std::max({group.low[1][i] - follicle.y, follicle.y - group.high[1][i], 0.0f});
-    const float dz = std::max({group.low[2][i] - follicle.z, follicle.z - group.high[2][i], 0.0f});
-    const float limit = radius * std::min(follicle.spacing, group.spacing[i]);
-    is_far[i] = dx * dx + dy * dy + dz * dz < limit * limit ? 0.0f : 1.0f;
-  }
-  for (size_t i = 0; i < kFan; ++i) {
-    if (is_far[i] != 0) continue;
+    if (is_near[i] == 0) continue;
     const size_t below = index * kFan + i;
     if (!(level == 0 ? list(below, number, radius) : visit(level - 1, below, follicle, number, radius)))
       return false;
@@ -144,13 +125,7 @@ bool CandidateBlocks::list(size_t block, uint32_t follicle, float radius) {
 }
 
 bool CandidateBlocks::is_near(size_t block, const PlacedFollicle& follicle, float radius) const {
-  const Group& group = levels_[0][block / kFan];
-  const size_t i = block % kFan;
-  const float dx = std::max({group.low[0][i] - follicle.x, follicle.x - group.high[0][i], 0.0f});
-  const float dy = std::max({group.low[1][i] - follicle.y, follicle.y - group.high[1][i], 0.0f});
-  const float dz = std::max({group.low[2][i] - follicle.z, follicle.z - group.high[2][i], 0.0f});
-  const float limit = radius * std::min(follicle.spacing, group.spacing[i]);
-  return dx * dx + dy * dy + dz * dz < limit * limit;
+  return levels_[0][block / kFan].meets(block % kFan, follicle, radius);
 }
 
 void CandidateBlocks::gather(size_t block, float radius, NearFollicles& out) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -78,6 +79,16 @@ class CandidateBlocks {
   struct Group {
     std::array<std::array<float, kFan>, 3> low, high;
     std::array<float, kFan> spacing;
+
+    /// Whether a follicle may be too close to a candidate of a lane. All operations round monotonically, as
+    /// those of NearFollicles::nearest() do: a box is never farther away than a candidate in it.
+    bool meets(size_t lane, const PlacedFollicle& follicle, float radius) const {
+      const float dx = std::max({low[0][lane] - follicle.x, follicle.x - high[0][lane], 0.0f});
+      const float dy = std::max({low[1][lane] - follicle.y, follicle.y - high[1][lane], 0.0f});
+      const float dz = std::max({low[2][lane] - follicle.z, follicle.z - high[2][lane], 0.0f});
+      const float limit = radius * std::min(follicle.spacing, spacing[lane]);
+      return dx * dx + dy * dy + dz * dz < limit * limit;
+    }
   };
   static Group empty_group();
   static void extend(Group& group, size_t lane, const FollicleCandidate& candidate);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -28,13 +27,6 @@ struct Influences {
   std::array<float, kMaxGuides> weight;
 };
 
-Four load(const float* from) {
-  Four four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-void store(float* to, Four four) { std::memcpy(to, &four, sizeof four); }
-
 /// Rows become columns.
 void transpose(std::array<Four, 4>& m) {
   const Four a = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
@@ -49,11 +41,11 @@ void transpose(std::array<Four, 4>& m) {
 /// quaternions opposite to the turn of the nearest guide: they mean the same rotation.
 Four mean_turn(const Influences& guides, size_t segment) {
   Four sum = four(0);
-  const Four nearest = guides.count > 0 ? load(guides.turns[0] + 4 * segment) : sum;
+  const Four nearest = guides.count > 0 ? load_four(guides.turns[0] + 4 * segment) : sum;
   for (size_t first = 0; first < guides.count; first += kLanes) {
     const size_t last = std::min(first + kLanes, guides.count);
     std::array<Four, kLanes> turns{};
-    for (size_t k = first; k < last; ++k) turns[k - first] = load(guides.turns[k] + 4 * segment);
+    for (size_t k = first; k < last; ++k) turns[k - first] = load_four(guides.turns[k] + 4 * segment);
     std::array<Four, kLanes> parts = turns;
     transpose(parts);
     const Four cosine =
@@ -151,7 +143,7 @@ void Follow::apply(StrandBatch& batch) const {
     }
     const auto offsets = [&](size_t point) {
       const VectorRow& row = batch.points[point].offset;
-      return FourVectors{load(&row[0][first]), load(&row[1][first]), load(&row[2][first])};
+      return FourVectors{load_four(&row[0][first]), load_four(&row[1][first]), load_four(&row[2][first])};
     };
     // A strand whose guides are not turned stays bit for bit.
     FourVectors before = offsets(0), shift{four(0), four(0), four(0)};
@@ -164,9 +156,9 @@ void Follow::apply(StrandBatch& batch) const {
       before = here;
       VectorRow& row = batch.points[p + 1].offset;
       const FourVectors moved = here + shift;
-      store(&row[0][first], moved.x);
-      store(&row[1][first], moved.y);
-      store(&row[2][first], moved.z);
+      store_four(&row[0][first], moved.x);
+      store_four(&row[1][first], moved.y);
+      store_four(&row[2][first], moved.z);
     }
   }
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "geom/four_lanes.h"
 #include "groom/strands/root_grid.h"
@@ -30,22 +29,7 @@ class NearRoots {
   static constexpr size_t kMaxPoints = 128;
   using Row = std::array<float, kMaxPoints>;
 
-  static Four four_of(const Row& row, size_t first) {
-    Four four;
-    std::memcpy(&four, &row[first], sizeof four);
-    return four;
-  }
-  /// One bit per lane of a comparison.
-  template <class Lanes>
-  static uint32_t bits_of(Lanes lanes) {
-#ifdef __SSE__
-    return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(lanes)));
-#else
-    uint32_t bits = 0;
-    for (uint32_t lane = 0; lane < 4; ++lane) bits |= lanes[lane] ? 1u << lane : 0u;
-    return bits;
-#endif
-  }
+  static Four four_of(const Row& row, size_t first) { return load_four(&row[first]); }
 
   const RootGrid& grid_;
   const int wanted_;
@@ -70,7 +54,7 @@ int NearRoots::nearest_if(const V3f& position, const V3f& normal, RootGrid::Neig
     const FourVectors n{four_of(normal_[0], first), four_of(normal_[1], first), four_of(normal_[2], first)};
     const Four distance2 = d.dot(d), cosine = n.dot(up);
     const auto wanted = (distance2 <= four(far)) & (cosine >= four(RootGrid::kMinCosine));
-    for (uint32_t lanes = bits_of(wanted); lanes != 0; lanes &= lanes - 1) {
+    for (uint32_t lanes = lane_bits(wanted); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
       const RootGrid::Neighbour candidate{index_[first + lane], std::sqrt(distance2[lane])};
       if (count == wanted_ && !RootGrid::before(candidate, result[count - 1])) continue;
