@@ -55,17 +55,22 @@ float DualScattering::max_strands(const V3f& wi) const {
 Rgb DualScattering::likely(const V3f& wi) const {
   const FibreAngles in = frame_.angles(wi);
   const FibreAverages fibre = table_->at(in.sin_theta, color_);
-  // One lobe that is as wide as both together, with their tilts.
-  const float width = fibre.forward_variance + fibre.backward_variance +
-                      fibre.forward_shift * fibre.forward_shift + fibre.backward_shift * fibre.backward_shift;
-  const float lobe =
-      LongitudinalLobe(width).density(in.sin_theta, in.cos_theta, frame_.sin_theta_o(), frame_.cos_theta_o());
+  const BackscatterShape shape(fibre);
+  // Lobes that are wider by their tilts, instead of tilted ones.
+  const auto lobe = [&](float variance) {
+    return LongitudinalLobe(variance).density(in.sin_theta, in.cos_theta, frame_.sin_theta_o(),
+                                              frame_.cos_theta_o());
+  };
+  const float narrow =
+      lobe(fibre.forward_variance + fibre.backward_variance + fibre.forward_shift * fibre.forward_shift +
+           fibre.backward_shift * fibre.backward_shift);
+  const float wide = lobe(fibre.forward_variance + shape.variance + shape.shift * shape.shift);
   const float backward = (1 + std::cos(in.phi)) / (2 * kPi), forward = (1 - std::cos(in.phi)) / (2 * kPi);
   Rgb scattered;
   for (int c = 0; c < 3; ++c) {
     const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
-    scattered[c] =
-        lobe * fibre.forward[c] * (forward * fibre.forward[c] + backward * (fibre.backward[c] + around));
+    scattered[c] = fibre.forward[c] * (narrow * (forward * fibre.forward[c] + backward * fibre.backward[c]) +
+                                       wide * backward * around);
   }
   return scattered;
 }

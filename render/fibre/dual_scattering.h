@@ -26,7 +26,7 @@ class DualScattering {
   FibreValue eval(const FibreValue& direct, const V3f& wi, float strands, float through) const;
 
   /// Returns a rough guess of the light that the fibre scatters in total if its light from `wi` has crossed
-  /// one strand: to choose among lights, for less than half the time of eval().
+  /// one strand: to choose among lights, faster than eval().
   Rgb likely(const V3f& wi) const;
 
   /// Returns the number of strands that leave less than 3 % of the light from `wi`; at most 64.

@@ -139,8 +139,8 @@ TEST_F(DualFibreLight, FadesWithTheStrandsBetween) {
 }
 
 TEST(DualScattering, IsGuessedWellEnoughToChooseAmongLights) {
-  // If the guess was far too low, a chosen light would count far too much. The guess has one lobe for three,
-  // so it may be off by their ratio of widths, which 10 covers.
+  // If the guess was far too low, a chosen light would count far too much. Its lobes are wider than the
+  // tilted ones of eval(): by up to a factor of 5 for the narrowest lobes here.
   for (const float roughness : {0.05f, 0.3f, 0.6f}) {
     ChiangParams params;
     params.beta_m = params.beta_n = roughness;
