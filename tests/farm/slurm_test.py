@@ -143,6 +143,17 @@ class SlurmTest(ProgramTest):
     def job(self, name):
         return self.slurm.jobs().get(self.elements[name])
 
+    def cancel_one(self, taken):
+        """Cancels a render, and returns its task. One that was frozen after its last sample still writes its picture; then
+        cancels another."""
+        while True:
+            cancelled, process = self.freeze_one(taken)
+            self.slurm.call("scancel", self.job(cancelled)[0])
+            self.thaw_when_ended(process)
+            self.until(lambda: not self.job(cancelled))  # called before the loop goes on
+            if not self.output(cancelled).exists():
+                return cancelled
+
     def finish(self):
         """Waits until no job is left in the queue."""
         def is_over():
@@ -156,9 +167,7 @@ class SlurmTest(ProgramTest):
         limited, late = self.freeze_one(taken)  # its time limit of a minute comes while it is frozen
         self.slurm.call("scontrol", "update", f"JobId={self.job(limited)[0]}", "TimeLimit=1")
 
-        cancelled, process = self.freeze_one(taken)
-        self.slurm.call("scancel", self.job(cancelled)[0])
-        self.thaw_when_ended(process)
+        cancelled = self.cancel_one(taken)
 
         killed, process = self.freeze_one(taken)
         os.kill(process, signal.SIGKILL)
