@@ -87,8 +87,9 @@ struct ClosestPointTree::Impl {
       items[t].normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
       items[t].triangle = t;
     }
-    // Rounding must not put a nearest point outside of its box: that of a corner and that of the query in the
-    // space of the node, together up to 1.5e-6 of the largest coordinate, and that of packet_distances().
+    // Boxes are larger by this margin, so that rounding never leaves out the nearest triangle. In the space
+    // of a node, a corner and the query together are off by up to 1.5e-6 of the largest coordinate;
+    // packet_distances() is off by less.
     pad = 4e-6f * farthest;
     packets.reserve(count / kPacket + 1);
     nodes.reserve(count / 7 + 2);  // the max, so that they are never copied

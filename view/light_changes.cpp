@@ -17,11 +17,12 @@ constexpr double kCones[] = {0.1, 170}, kSuns[] = {0.001, 180};  // degrees, as 
 
 std::vector<double> list(const V3f& v) { return {v.x, v.y, v.z}; }
 
-/// A point on the axis of the profile of a lamp. If the scene states none, the lamp shines straight down.
+/// Returns the point at which the profile of a lamp aims. Without one in the scene, the lamp shines straight
+/// down.
 V3f aim_of_profile(const PointLightParams& lamp, double frame) {
-  constexpr float kRadii =
-      20;  // from the lamp to a square in the picture that can be told from that of its size
-  return lamp.look_at ? lamp.look_at->at(frame) : lamp.position.at(frame) - V3f(0, kRadii * lamp.radius, 0);
+  constexpr float kAimRadii = 20;  // so far away that its square does not cover the square of the radius
+  return lamp.look_at ? lamp.look_at->at(frame)
+                      : lamp.position.at(frame) - V3f(0, kAimRadii * lamp.radius, 0);
 }
 
 /// The values of the keys that light_keys() names.

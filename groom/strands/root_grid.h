@@ -75,6 +75,10 @@ class RootGrid {
   /// fall in the meantime.
   template <class Limit, class Look>
   void for_each_cell(const V3f& position, const Limit& limit, const Look& look) const;
+  /// Calls look(index, squared distance) for all points in the bucket of a cell. Several cells may share a
+  /// bucket: is_in() tells points of other cells.
+  template <class Look>
+  void for_each_in_bucket(const V3f& position, int64_t x, int64_t y, int64_t z, const Look& look) const;
   size_t bucket(int64_t x, int64_t y, int64_t z) const;
   int64_t cell(float coordinate) const {
     // std::floor() is slow without SSE 4.1.
@@ -102,6 +106,17 @@ class RootGrid {
   std::vector<uint32_t> items_;
 };
 
+template <class Look>
+void RootGrid::for_each_in_bucket(const V3f& position, int64_t x, int64_t y, int64_t z,
+                                  const Look& look) const {
+  const size_t b = bucket(x, y, z);
+  for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+    const uint32_t i = items_[k];
+    const V3f d = positions_[i] - position;
+    look(i, d.dot(d));
+  }
+}
+
 template <class Visit>
 void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const {
   if (positions_.empty()) return;
@@ -111,17 +126,10 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
   for (int64_t z = z0; z <= z1; ++z) {
     for (int64_t y = y0; y <= y1; ++y) {
       for (int64_t x = x0; x <= x1; ++x) {
-        const size_t b = bucket(x, y, z);
-        for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-          const uint32_t i = items_[k];
-          const V3f& p = positions_[i];
-          const V3f d = p - position;
-          const float distance2 = d.dot(d);
-          if (distance2 > radius_ * radius_ || !same_side(normals_[i], normal)) continue;
-          // Several cells may share a bucket: skip places of other cells.
-          if (!is_in(p, x, y, z)) continue;
-          visit(i, distance2);
-        }
+        for_each_in_bucket(position, x, y, z, [&](uint32_t i, float distance2) {
+          if (distance2 > radius_ * radius_ || !same_side(normals_[i], normal)) return;
+          if (is_in(positions_[i], x, y, z)) visit(i, distance2);
+        });
       }
     }
   }
@@ -129,7 +137,8 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
 
 template <class Limit, class Look>
 void RootGrid::for_each_cell(const V3f& position, const Limit& limit, const Look& look) const {
-  // The cell of the query first: the other cells are then mostly farther away than what is found there.
+  // Begins with the cell of the query. What is found there is mostly nearer than other cells, so they are
+  // left out.
   const int64_t x = cell(position.x), y = cell(position.y), z = cell(position.z);
   look(x, y, z);
   const int64_t x0 = cell(position.x - radius_), x1 = cell(position.x + radius_);
@@ -155,11 +164,9 @@ void RootGrid::for_each_within(const V3f& position, float distance, const Visit&
   const float far = distance * distance * 1.0001f;
   const auto limit = [&] { return static_cast<double>(far); };
   for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
-    const size_t b = bucket(x, y, z);
-    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-      const V3f& p = positions_[items_[k]];
-      if ((p - position).length2() <= far && is_in(p, x, y, z)) visit(items_[k]);
-    }
+    for_each_in_bucket(position, x, y, z, [&](uint32_t i, float distance2) {
+      if (distance2 <= far && is_in(positions_[i], x, y, z)) visit(i);
+    });
   });
 }
 
@@ -171,17 +178,13 @@ bool RootGrid::nearest_if(const V3f& position, const V3f& normal, Neighbour& res
   bool found = false;
   const auto limit = [&] { return static_cast<double>(best); };
   for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
-    const size_t b = bucket(x, y, z);
-    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-      const uint32_t i = items_[k];
-      const V3f d = positions_[i] - position;
-      const float distance2 = d.dot(d);
-      if (distance2 > best || (found && distance2 == best && i > result.index)) continue;
-      if (!same_side(normals_[i], normal) || !is_in(positions_[i], x, y, z) || !accept(i)) continue;
+    for_each_in_bucket(position, x, y, z, [&](uint32_t i, float distance2) {
+      if (distance2 > best || (found && distance2 == best && i > result.index)) return;
+      if (!same_side(normals_[i], normal) || !is_in(positions_[i], x, y, z) || !accept(i)) return;
       found = true;
       best = distance2;
       result.index = i;
-    }
+    });
   });
   result.distance = std::sqrt(found ? best : 0.0f);
   return found;
@@ -195,19 +198,14 @@ int RootGrid::nearest_if(const V3f& position, const V3f& normal, int wanted, Nei
   float far = radius_ * radius_;  // squared distance beyond which no point is wanted
   const auto limit = [&] { return static_cast<double>(far); };
   for_each_cell(position, limit, [&](int64_t x, int64_t y, int64_t z) {
-    const size_t b = bucket(x, y, z);
-    for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-      const uint32_t i = items_[k];
-      const V3f d = positions_[i] - position;
-      const float distance2 = d.dot(d);
-      if (distance2 > far || !same_side(normals_[i], normal)) continue;
+    for_each_in_bucket(position, x, y, z, [&](uint32_t i, float distance2) {
+      if (distance2 > far || !same_side(normals_[i], normal)) return;
       const Neighbour candidate{i, std::sqrt(distance2)};
-      if (count == wanted && !before(candidate, result[count - 1])) continue;
-      // Several cells may share a bucket: skip places of other cells.
-      if (!is_in(positions_[i], x, y, z) || !accept(i)) continue;
+      if (count == wanted && !before(candidate, result[count - 1])) return;
+      if (!is_in(positions_[i], x, y, z) || !accept(i)) return;
       insert(candidate, wanted, result, count);
       if (count == wanted) far = std::min(far, farthest(result[count - 1].distance));
-    }
+    });
   });
   return count;
 }
