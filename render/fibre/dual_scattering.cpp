@@ -44,13 +44,7 @@ float stack_backscatter(float forward, float backward) {
 
 DualScattering::DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo,
                                const Rgb& color)
-    : table_(&table), frame_(tangent, wo), color_(color) {}
-
-float DualScattering::max_strands(const V3f& wi) const {
-  const float left = max_component(table_->at(frame_.angles(wi).sin_theta, color_).forward);
-  if (!(left > 0)) return 1;
-  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(left, 0.999f))), 1.0f, kMaxStrands);
-}
+    : table_(&table), frame_(tangent, wo), color_(FibreAverageTable::steps_of(color)) {}
 
 Rgb DualScattering::likely(const V3f& wi) const {
   const FibreAngles in = frame_.angles(wi);
@@ -75,34 +69,41 @@ Rgb DualScattering::likely(const V3f& wi) const {
   return scattered;
 }
 
-FibreValue DualScattering::eval(const FibreValue& direct, const V3f& wi, float strands, float through) const {
+DualScattering::Arriving::Arriving(const DualScattering& dual, const V3f& wi)
+    : frame_(dual.frame_), in_(frame_.angles(wi)), fibre_(dual.table_->at(in_.sin_theta, dual.color_)) {}
+
+float DualScattering::Arriving::max_strands() const {
+  const float left = max_component(fibre_.forward);
+  if (!(left > 0)) return 1;
+  return std::clamp(std::ceil(std::log(kNoLightLeft) / std::log(std::min(left, 0.999f))), 1.0f, kMaxStrands);
+}
+
+FibreValue DualScattering::Arriving::eval(const FibreValue& direct, float strands, float through) const {
   FibreValue value = direct;
   for (Rgb& lobes : value.lobes) lobes *= through;
   const bool arrives = std::isfinite(strands);
   if (!arrives && !(through > 0)) return value;
-  const FibreAngles in = frame_.angles(wi);
-  const FibreAverages fibre = table_->at(in.sin_theta, color_);
-  const BackscatterShape shape(fibre);
-  const float backward = (1 + std::cos(in.phi)) / (2 * kPi), forward = (1 - std::cos(in.phi)) / (2 * kPi);
+  const BackscatterShape shape(fibre_);
+  const float backward = (1 + std::cos(in_.phi)) / (2 * kPi), forward = (1 - std::cos(in_.phi)) / (2 * kPi);
   // The lobes are tilted by turning the view.
   const auto lobe = [&](float shift, float variance) {
     const float sine = frame_.sin_theta_o() * std::cos(shift) - frame_.cos_theta_o() * std::sin(shift);
     const float cosine = std::sqrt(std::max(0.0f, 1 - sine * sine));
-    return LongitudinalLobe(variance).density(in.sin_theta, in.cos_theta, sine, cosine);
+    return LongitudinalLobe(variance).density(in_.sin_theta, in_.cos_theta, sine, cosine);
   };
-  const float spread = arrives ? strands * fibre.forward_variance : 0;
+  const float spread = arrives ? strands * fibre_.forward_variance : 0;
   const float back_now = through > 0 ? backward * lobe(shape.shift, shape.variance) : 0;
   const float back_spread =
       arrives && strands > 0 ? backward * lobe(shape.shift, shape.variance + spread) : 0;
-  const float on = forward * lobe(fibre.forward_shift, fibre.forward_variance + spread);
-  const float returned = backward * lobe(fibre.backward_shift, fibre.backward_variance + spread);
+  const float on = forward * lobe(fibre_.forward_shift, fibre_.forward_variance + spread);
+  const float returned = backward * lobe(fibre_.backward_shift, fibre_.backward_variance + spread);
   for (int c = 0; c < 3; ++c) {
-    const float around = stack_backscatter(fibre.forward[c], fibre.backward[c]);
-    const float crossed = arrives ? std::pow(fibre.forward[c], strands) : 0;
+    const float around = stack_backscatter(fibre_.forward[c], fibre_.backward[c]);
+    const float crossed = arrives ? std::pow(fibre_.forward[c], strands) : 0;
     const float scattered = std::max(0.0f, crossed - through);
     value[LobeGroup::kDiffuse][c] +=
         through * around * back_now +
-        scattered * (fibre.forward[c] * on + fibre.backward[c] * returned + around * back_spread);
+        scattered * (fibre_.forward[c] * on + fibre_.backward[c] * returned + around * back_spread);
   }
   return value;
 }

@@ -20,22 +20,34 @@ class DualScattering {
  public:
   DualScattering(const FibreAverageTable& table, const V3f& tangent, const V3f& wo, const Rgb& color);
 
-  /// Returns the scattering of light that arrives from `wi` after it has crossed `strands` strands; infinity:
-  /// none arrives. `through`: fraction that arrives without meeting any of them, which the fibre scatters as
-  /// `direct`. Everything else is in the group `diffuse`. The density remains that of `direct`.
-  FibreValue eval(const FibreValue& direct, const V3f& wi, float strands, float through) const;
+  /// Light that arrives from one direction. Refers to the DualScattering.
+  class Arriving {
+   public:
+    Arriving(const DualScattering& dual, const V3f& wi);
+
+    /// Returns the number of strands that leave less than 3 % of the light; at most 64.
+    float max_strands() const;
+
+    /// Returns the scattering of the light after it has crossed `strands` strands; infinity: none arrives.
+    /// `through`: fraction that arrives without meeting any of them, which the fibre scatters as `direct`.
+    /// Everything else is in the group `diffuse`. The density remains that of `direct`.
+    FibreValue eval(const FibreValue& direct, float strands, float through) const;
+
+   private:
+    const FibreFrame& frame_;
+    FibreAngles in_;
+    FibreAverages fibre_;
+  };
+  Arriving arriving(const V3f& wi) const { return Arriving(*this, wi); }
 
   /// Returns a rough guess of the light that the fibre scatters in total if its light from `wi` has crossed
   /// one strand: to choose among lights, faster than eval().
   Rgb likely(const V3f& wi) const;
 
-  /// Returns the number of strands that leave less than 3 % of the light from `wi`; at most 64.
-  float max_strands(const V3f& wi) const;
-
  private:
   const FibreAverageTable* table_;
   FibreFrame frame_;
-  Rgb color_;
+  FibreAverageTable::ColorSteps color_;
 };
 
 /// Returns the fraction of light that a semi-infinite stack of fibres with the averages a_f and a_b sends

@@ -65,53 +65,68 @@ FibreAverages averages_of(const FibreMaterial& material, float theta, float colo
   return result;
 }
 
-/// A place between two nodes of a table.
-struct TableStep {
-  int first;
-  float share;  // of the next node
-
-  TableStep(float place, int nodes) {
-    const float inside = std::clamp(place, 0.0f, static_cast<float>(nodes - 1));
-    first = std::min(static_cast<int>(inside), nodes - 2);
-    share = inside - static_cast<float>(first);
-  }
-};
-
 }  // namespace
+
+FibreAverageTable::Step::Step(float place, int nodes) {
+  const float inside = std::clamp(place, 0.0f, static_cast<float>(nodes - 1));
+  first = std::min(static_cast<int>(inside), nodes - 2);
+  share = inside - static_cast<float>(first);
+}
+
+FibreAverageTable::Cell::Cell(const FibreAverages& of) {
+  for (int c = 0; c < 3; ++c)
+    channels[static_cast<size_t>(c)] = {of.forward[c],
+                                        of.backward[c],
+                                        of.forward_shift / 3,
+                                        of.backward_shift / 3,
+                                        of.forward_variance / 3,
+                                        of.backward_variance / 3,
+                                        0,
+                                        0};
+}
 
 FibreAverageTable::FibreAverageTable(const FibreMaterial& material) {
   for (int a = 0; a < kAngles; ++a) {
     const float theta = kSteepestAverage * (2 * static_cast<float>(a) / (kAngles - 1) - 1);
     for (int c = 0; c < kColors; ++c) {
       const float root = static_cast<float>(c) / (kColors - 1);
-      cells_.push_back(averages_of(material, theta, root * root));
+      cells_.emplace_back(averages_of(material, theta, root * root));
     }
   }
 }
 
-FibreAverages FibreAverageTable::at(float sin_theta, const Rgb& color) const {
+FibreAverageTable::ColorSteps FibreAverageTable::steps_of(const Rgb& color) {
+  const auto step = [&](int channel) {
+    return Step(std::sqrt(std::max(color[channel], 0.0f)) * (kColors - 1), kColors);
+  };
+  return {step(0), step(1), step(2)};
+}
+
+FibreAverages FibreAverageTable::at(float sin_theta, const ColorSteps& color) const {
   const float theta = std::asin(std::clamp(sin_theta, -1.0f, 1.0f));
-  const TableStep angle(0.5f * (kAngles - 1) * (theta / kSteepestAverage + 1), kAngles);
+  const Step angle(0.5f * (kAngles - 1) * (theta / kSteepestAverage + 1), kAngles);
   FibreAverages result;
   for (int channel = 0; channel < 3; ++channel) {
-    const TableStep paint(std::sqrt(std::max(color[channel], 0.0f)) * (kColors - 1), kColors);
-    for (int corner = 0; corner < 4; ++corner) {
-      const int next_angle = corner & 1, next_color = corner >> 1;
-      const float weight =
-          (next_angle ? angle.share : 1 - angle.share) * (next_color ? paint.share : 1 - paint.share);
-      const FibreAverages& from = cell(angle.first + next_angle, paint.first + next_color);
-      result.forward[channel] += weight * from.forward[channel];
-      result.backward[channel] += weight * from.backward[channel];
-      result.forward_shift += weight / 3 * from.forward_shift;
-      result.backward_shift += weight / 3 * from.backward_shift;
-      result.forward_variance += weight / 3 * from.forward_variance;
-      result.backward_variance += weight / 3 * from.backward_variance;
+    const auto c = static_cast<size_t>(channel);
+    const Step& paint = color[c];
+    const Lanes& a = cell(angle.first, paint.first).channels[c];
+    const Lanes& b = cell(angle.first + 1, paint.first).channels[c];
+    const Lanes& a_next = cell(angle.first, paint.first + 1).channels[c];
+    const Lanes& b_next = cell(angle.first + 1, paint.first + 1).channels[c];
+    Lanes mixed;
+    for (size_t k = 0; k < mixed.size(); ++k) {
+      const float here = a[k] + angle.share * (b[k] - a[k]);
+      const float next = a_next[k] + angle.share * (b_next[k] - a_next[k]);
+      mixed[k] = here + paint.share * (next - here);
     }
-    const float sum = result.forward[channel] + result.backward[channel];
-    if (sum > kMostLight) {
-      result.forward[channel] *= kMostLight / sum;
-      result.backward[channel] *= kMostLight / sum;
-    }
+    // Samples may sum up to more light than there is.
+    const float scale = kMostLight / std::max(mixed[0] + mixed[1], kMostLight);
+    result.forward[channel] = mixed[0] * scale;
+    result.backward[channel] = mixed[1] * scale;
+    result.forward_shift += mixed[2];
+    result.backward_shift += mixed[3];
+    result.forward_variance += mixed[4];
+    result.backward_variance += mixed[5];
   }
   return result;
 }

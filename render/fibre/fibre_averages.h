@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "render/fibre/fibre_material.h"
@@ -24,20 +25,43 @@ class FibreAverageTable {
  public:
   explicit FibreAverageTable(const FibreMaterial& material);
 
+  /// A place between two nodes of one axis of the table.
+  struct Step {
+    int first = 0;
+    float share = 0;  ///< of the next node
+
+    Step() = default;
+    Step(float place, int nodes);
+  };
+  /// The places of a colour's three channels, each of which is looked up by itself.
+  using ColorSteps = std::array<Step, 3>;
+
+  static ColorSteps steps_of(const Rgb& color);
+
   /// Returns the averages for light of inclination theta (sin_theta = dot(wi, tangent)) on a fibre of this
-  /// colour. Each channel of the colour is looked up by itself. The fractions of light that goes on and back
-  /// sum up to at most 1, also for models that gain light.
-  FibreAverages at(float sin_theta, const Rgb& color) const;
+  /// colour. The fractions of light that goes on and back sum up to at most 1, also for models that gain
+  /// light.
+  FibreAverages at(float sin_theta, const ColorSteps& color) const;
+  FibreAverages at(float sin_theta, const Rgb& color) const { return at(sin_theta, steps_of(color)); }
 
   static constexpr int kAngles = 12;    ///< evenly spaced from -85 to 85 degrees
   static constexpr int kColors = 9;     ///< square roots of colours, evenly spaced from 0 to 1
   static constexpr int kSamples = 512;  ///< per angle and colour: the error of a fraction is about 0.005
 
  private:
-  const FibreAverages& cell(int angle, int color) const {
+  // Of one channel: both fractions, then a third of both shifts and of both variances, which are those of all
+  // channels together. Two lanes are empty, so that a row fills vectors of four.
+  using Lanes = std::array<float, 8>;
+  struct Cell {
+    std::array<Lanes, 3> channels;
+
+    explicit Cell(const FibreAverages& of);
+  };
+  const Cell& cell(int angle, int color) const {
     return cells_[static_cast<size_t>(angle * kColors + color)];
   }
-  std::vector<FibreAverages> cells_;
+
+  std::vector<Cell> cells_;
 };
 
 }  // namespace pelage

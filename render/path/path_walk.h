@@ -221,9 +221,10 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
 template <class Sink>
 FibreValue PathWalk<Sink>::dual_value(const DualScattering& dual, const FibreValue& direct, const Ray& shadow,
                                       SampleScratch& scratch) const {
-  const auto max = static_cast<uint32_t>(dual.max_strands(shadow.direction));
+  const DualScattering::Arriving arriving = dual.arriving(shadow.direction);
+  const auto max = static_cast<uint32_t>(arriving.max_strands());
   const StrandCount between = scratch.strands_crossed(accel_, shadow, max);
-  return dual.eval(direct, shadow.direction, between.strands, between.through);
+  return arriving.eval(direct, between.strands, between.through);
 }
 
 /// Reports the lights that a ray sampled from the lobes of the current vertex `point` hits before `distance`.

@@ -103,7 +103,7 @@ class DualFibreLight : public testing::Test {
       for (int k = 0; k < kSteps; ++k) {
         const float phi = 2 * kPi * (static_cast<float>(k) + 0.5f) / kSteps;
         const V3f wi(z, across * std::cos(phi), across * std::sin(phi));
-        sum += dual.eval({}, wi, strands, through).total() * (4 * kPi / (kSteps * kSteps));
+        sum += dual.arriving(wi).eval({}, strands, through).total() * (4 * kPi / (kSteps * kSteps));
       }
     }
     return sum;
@@ -133,9 +133,9 @@ TEST_F(DualFibreLight, FadesWithTheStrandsBetween) {
   const DualScattering dual(table_, V3f(1, 0, 0), V3f(0, 1, 0), Rgb(1));
   FibreValue direct;
   direct[LobeGroup::kPrimary] = Rgb(2);
-  EXPECT_EQ(dual.eval(direct, V3f(0, 0, 1), kNone, 0)[LobeGroup::kPrimary], Rgb(0));
-  EXPECT_EQ(dual.eval(direct, V3f(0, 0, 1), 0, 1)[LobeGroup::kPrimary], Rgb(2));
-  EXPECT_GT(dual.max_strands(V3f(0, 0, 1)), 5);
+  EXPECT_EQ(dual.arriving(V3f(0, 0, 1)).eval(direct, kNone, 0)[LobeGroup::kPrimary], Rgb(0));
+  EXPECT_EQ(dual.arriving(V3f(0, 0, 1)).eval(direct, 0, 1)[LobeGroup::kPrimary], Rgb(2));
+  EXPECT_GT(dual.arriving(V3f(0, 0, 1)).max_strands(), 5);
 }
 
 TEST(DualScattering, IsGuessedWellEnoughToChooseAmongLights) {
@@ -150,7 +150,7 @@ TEST(DualScattering, IsGuessedWellEnoughToChooseAmongLights) {
       for (const float phi : {0.1f, 1.5f, 3.0f}) {
         const float cosine = std::sqrt(1 - sine * sine);
         const V3f wi(sine, cosine * std::cos(phi), cosine * std::sin(phi));
-        const float exact = luminance(dual.eval({}, wi, 1, 0).total());
+        const float exact = luminance(dual.arriving(wi).eval({}, 1, 0).total());
         EXPECT_GT(10 * luminance(dual.likely(wi)), exact - 1e-3f) << roughness << ' ' << sine << ' ' << phi;
       }
     }
@@ -164,7 +164,7 @@ TEST(DualScattering, MaxStrandsLeaveThreePerCentOfTheLightOfEachDirection) {
   const Rgb color(0.5f);
   const DualScattering dual(table, V3f(1, 0, 0), V3f(0, 1, 0), color);
   for (const float sine : {-0.9f, -0.3f, 0.0f, 0.6f, 0.95f}) {
-    const float strands = dual.max_strands(V3f(sine, std::sqrt(1 - sine * sine), 0));
+    const float strands = dual.arriving(V3f(sine, std::sqrt(1 - sine * sine), 0)).max_strands();
     const float left = max_component(table.at(sine, color).forward);
     if (strands < 64) {
       EXPECT_LE(std::pow(left, strands), 0.03f) << sine;
@@ -180,7 +180,7 @@ TEST(DualScattering, BlackFibresBlockAtOnce) {
   black.absorption = Rgb(50);
   const FibreAverageTable table{FibreMaterial(black)};
   const DualScattering dual(table, V3f(1, 0, 0), V3f(0, 1, 0), Rgb(0));
-  EXPECT_LE(dual.max_strands(V3f(0, 0, 1)), 3);
+  EXPECT_LE(dual.arriving(V3f(0, 0, 1)).max_strands(), 3);
 }
 
 }  // namespace
