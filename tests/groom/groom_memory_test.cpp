@@ -305,7 +305,7 @@ TEST_F(GroomMemoryTest, LongStrandsAreRefusedWithWhatDoesForAPicture) {
   }
 }
 
-/// Asks to stop after this many checks.
+/// Asks to stop after this many looks.
 class StopsAfterLooks final : public Progress {
  public:
   explicit StopsAfterLooks(int looks) : left_(looks) {}
@@ -313,6 +313,7 @@ class StopsAfterLooks final : public Progress {
   void advance(double) override {}
   void end() override {}
   bool cancelled() const override { return --left_ < 0; }
+  int left() const { return left_; }
 
  private:
   mutable std::atomic<int> left_;
@@ -325,19 +326,24 @@ TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
   for (const int64_t limit : {int64_t{0}, follicle_temporary_bytes(count)}) {
     MemoryLedger ledger;
     ledger.set_limit(static_cast<uint64_t>(limit));
-    int stopped = 0, looks = 0;
-    for (bool ended = false; !ended; looks += limit > 0 ? 41 : 13) {
-      StopsAfterLooks progress(looks);
+    const auto place = [&](Progress& progress) {
+      FollicleTree::build(*rest_, options(count), Job{one, ledger, progress});
+    };
+    StopsAfterLooks never(std::numeric_limits<int>::max());
+    place(never);
+    const int looks = std::numeric_limits<int>::max() - never.left();
+    EXPECT_GT(looks, 50);
+    constexpr int kStops = 12;
+    for (int stop = 0; stop < kStops; ++stop) {
+      StopsAfterLooks progress(stop * (looks - 1) / (kStops - 1));
       try {
-        FollicleTree::build(*rest_, options(count), Job{one, ledger, progress});
-        ended = true;
+        place(progress);
+        ADD_FAILURE() << "not stopped at look " << stop * (looks - 1) / (kStops - 1) << " of " << looks;
       } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::kStopped);
         EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
-        ++stopped;
       }
     }
-    EXPECT_GT(stopped, 10);
   }
 }
 
