@@ -86,6 +86,8 @@ class Source {
       throw std::runtime_error("has tiles that are too large");
     }
     const OIIO::TypeDesc values = type();
+    // Rows that need no conversion are read without one: read_scanlines() allocates 16 MB for each strip.
+    const bool as_stored = values == spec.format && spec.channelformats.empty();
     std::vector<char> strip;
     for (int y = 0; y < info.height; y += rows) {
       const int end = std::min(y + rows, info.height);
@@ -94,7 +96,9 @@ class Source {
       const bool good =
           tiled ? input_->read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, spec.z, spec.z + 1, 0,
                                      info.channels, values, strip.data())
-                : input_->read_scanlines(0, 0, top, bottom, spec.z, 0, info.channels, values, strip.data());
+          : as_stored
+              ? input_->read_native_scanlines(0, 0, top, bottom, spec.z, 0, info.channels, strip.data())
+              : input_->read_scanlines(0, 0, top, bottom, spec.z, 0, info.channels, values, strip.data());
       if (!good) throw std::runtime_error(one_line(input_->geterror()));
       if (sink.rows(sink.context, strip.data(), end - y) != 0) return false;
     }
