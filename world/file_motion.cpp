@@ -16,7 +16,7 @@ namespace pelage {
 namespace {
 
 /// Bytes that a point of a guide takes while its frames are read, except for those of the reader.
-constexpr size_t kBytesOfPoint = 160;
+constexpr size_t kBytesOfReadPoint = 160;
 
 /// Whether a file states roots that lie elsewhere than the guides of the coat: farther than the length of a
 /// guide, and than the rounding of the file.
@@ -38,7 +38,7 @@ FileMotion::FileMotion(const SceneDescription& scene, const Assets& assets, cons
       own_last_(static_cast<int>(std::ceil(frame))) {
   const size_t guides = coat.groom->guides()->follicles.size();
   const auto [first, last] = whole_frames_around(scene.camera, frame);
-  const size_t bytes = (coat.segments() + guides) * kBytesOfPoint +
+  const size_t bytes = (coat.segments() + guides) * kBytesOfReadPoint +
                        static_cast<size_t>(last - first + 1) * coat.segments() * 4 * sizeof(float);
   charge_ =
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes), "the guides of " + coat.name);

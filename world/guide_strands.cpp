@@ -11,16 +11,16 @@ namespace pelage {
 namespace {
 
 /// Bytes that a point of a guide takes, as groomed and in the result.
-constexpr size_t kBytesOfPoint = 80;
+constexpr size_t kBytesOfWrittenPoint = 80;
 
 }  // namespace
 
 Strands guide_strands(const Assets& assets, const MovingCoat& coat, double frame, const GuideTurns& turns,
                       const Job& job) {
   const size_t guides = coat.groom->guides()->follicles.size();
-  const MemoryCharge charge =
-      reserve(job.ledger, MemoryTag::kGrooms,
-              static_cast<int64_t>((coat.segments() + guides) * kBytesOfPoint), "the guides of " + coat.name);
+  const MemoryCharge charge = reserve(job.ledger, MemoryTag::kGrooms,
+                                      static_cast<int64_t>((coat.segments() + guides) * kBytesOfWrittenPoint),
+                                      "the guides of " + coat.name);
   PELAGE_CHECK(turns.empty() || turns.size() == 4 * coat.segments());
   const LimitSurface& rest = *assets.skins.at(coat.character.params->parts[coat.part].skin.name).rest;
   const double scale = coat.character.params->transform.scale.at(frame);

@@ -47,8 +47,8 @@ std::vector<std::string> coats_of(const SceneDescription& scene, const std::stri
   return coats;
 }
 
-std::set<std::filesystem::path> files_of(const GroomParams& groom, const CameraParams& camera,
-                                         std::span<const int> frames) {
+std::set<std::filesystem::path> guide_files_of(const GroomParams& groom, const CameraParams& camera,
+                                               std::span<const int> frames) {
   std::set<std::filesystem::path> files;
   for (const int of : frames) {
     const auto [first, last] = whole_frames_around(camera, of);
@@ -96,7 +96,7 @@ std::vector<std::filesystem::path> motion_files(const SceneDescription& scene, s
   std::vector<std::filesystem::path> files;
   for (const auto& groom : scene.grooms.items) {
     if (!has_files(groom.value)) continue;
-    const auto own = files_of(groom.value, scene.camera, frames);
+    const auto own = guide_files_of(groom.value, scene.camera, frames);
     files.insert(files.end(), own.begin(), own.end());
   }
   return files;
@@ -108,7 +108,7 @@ std::map<std::string, std::string> motion_file_inputs(const SceneDescription& sc
   for (const auto& groom : scene.grooms.items) {
     if (!has_files(groom.value)) continue;
     ContentHasher hasher;
-    for (const std::filesystem::path& file : files_of(groom.value, scene.camera, frames)) {
+    for (const std::filesystem::path& file : guide_files_of(groom.value, scene.camera, frames)) {
       std::error_code failed;
       const bool exists = std::filesystem::exists(file, failed);
       hasher.add(file.filename().string()).add(exists);
