@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/nearest_name.h"
 #include "cli/commands.h"
 #include "cli/guide_output.h"
 #include "cli/read_scene.h"
@@ -95,9 +96,11 @@ void simulate_coats(const Options& options, const SceneDescription& scene, const
     std::cout << "not simulated: " << instead << "\n";
   if (some || (!options.output.empty() && !instead.empty())) return;
   throw Error(ErrorKind::kArguments,
-              scene.files.front().string() +
-                  (instead.empty() ? ": no groom of a character has `dynamics` that is simulated"
-                                   : ": nothing to simulate (" + instead + ")"));
+              scene.files.front().string() + ": " +
+                  (!instead.empty()        ? "nothing to simulate (" + instead + ")"
+                   : options.groom.empty() ? "no groom of a character has `dynamics` that is simulated"
+                                           : "no character has the groom " + quote(options.groom) +
+                                                 " with `dynamics` that is simulated"));
 }
 
 }  // namespace
