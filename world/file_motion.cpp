@@ -47,6 +47,8 @@ FileMotion::FileMotion(const SceneDescription& scene, const Assets& assets, cons
 }
 
 GuideTurns FileMotion::at(int half) {
+  // A mistake in all files is reported for the rendered frame.
+  if (known_.empty()) at_frame(own_first_);
   const int frame = static_cast<int>(std::floor(0.5 * half));
   const GuideTurns& before = at_frame(frame);
   return half == 2 * frame ? before : blend_turns(before, at_frame(frame + 1), 0.5f);
