@@ -20,6 +20,7 @@
 #include "farm/shot_page.h"
 #include "farm/slurm.h"
 #include "world/checkpoint.h"
+#include "world/motion_files.h"
 
 namespace pelage {
 namespace {
@@ -102,6 +103,7 @@ int submit_shot(const Options& options) {
   shot.plan = plan_of(options, request);
   if (!options.farm.dry_run) {
     shot.plan.inputs = frame_inputs(scene);
+    shot.plan.inputs.merge(motion_file_inputs(scene, scene.frames.frames));
     check_same_shot(folder, shot.plan);
   }
   const ShotCost cost = add_estimate(options, request, scene, shot.plan);

@@ -8,11 +8,12 @@
 #include "base/error.h"
 #include "cli/output_files.h"
 #include "render/render_frame.h"
+#include "world/motion_files.h"
 
 namespace pelage {
 
 FrameCheckpoints::FrameCheckpoints(const Options& options, const SceneDescription& scene, Progress& progress)
-    : options_(options.checkpoint), region_(options.picture.region), progress_(progress) {
+    : options_(options.checkpoint), region_(options.picture.region), scene_(scene), progress_(progress) {
   if (!options_.folder) return;
   check_saving(scene.render);
   for (const int frame : scene.frames.frames) {
@@ -33,9 +34,10 @@ Checkpoint* FrameCheckpoints::of(int frame) {
   if (!options_.folder) return nullptr;
   std::unique_ptr<Checkpoint>& checkpoint = checkpoints_[frame];
   if (!checkpoint) {
+    FrameInputs inputs = frame_inputs(inputs_, frame, region_);
+    inputs.merge(motion_file_inputs(scene_, {&frame, 1}));
     checkpoint = std::make_unique<Checkpoint>(
-        std::filesystem::path(*options_.folder) / checkpoint_name(frame, region_),
-        frame_inputs(inputs_, frame, region_),
+        std::filesystem::path(*options_.folder) / checkpoint_name(frame, region_), std::move(inputs),
         Checkpoint::Schedule{options_.every_s, &CheckpointSignal::count}, progress_);
   }
   return checkpoint.get();

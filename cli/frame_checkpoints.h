@@ -17,8 +17,9 @@ namespace pelage {
 /// The checkpoints of the frames of a run of `render --checkpoint`. Without this flag, it does nothing.
 class FrameCheckpoints {
  public:
-  /// Checks that checkpoints can be written to the folder. Throws Error: kArguments if the scene cannot have
-  /// checkpoints, kInput if the folder cannot be read to resume, kFailed if it cannot be written.
+  /// Checks that checkpoints can be written to the folder. `scene` must outlive the object. Throws Error:
+  /// kArguments if the scene cannot have checkpoints, kInput if the folder cannot be read to resume, kFailed
+  /// if it cannot be written.
   FrameCheckpoints(const Options& options, const SceneDescription& scene, Progress& progress);
 
   /// Returns the frames that are not finished. With --resume, reads the checkpoints of all frames, and says
@@ -33,6 +34,7 @@ class FrameCheckpoints {
  private:
   CheckpointOptions options_;
   std::optional<PixelBox> region_;
+  const SceneDescription& scene_;
   Progress& progress_;
   std::optional<CheckpointSignal> signal_;
   FrameInputs inputs_;

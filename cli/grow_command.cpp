@@ -24,6 +24,7 @@
 #include "world/assets.h"
 #include "world/compose.h"
 #include "world/frames.h"
+#include "world/motion_files.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -276,8 +277,10 @@ int run_grow(const Options& options) {
   check_stats(options, scene.files);
   if (!options.output.empty()) {
     check_stats(options, {options.output});
-    for (const int frame : frames)
+    for (const int frame : frames) {
       check_replaces_none("-o", frame_file_name(options.output, frame), scene.files);
+      check_replaces_none("-o", frame_file_name(options.output, frame), motion_files(scene, {&frame, 1}));
+    }
     prepare_output(frame_file_name(options.output, frames.front()));
   }
   keep_spare_heap(scene.render.memory.bytes, run.workers().thread_count());

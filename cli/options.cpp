@@ -121,6 +121,18 @@ void add_simulate(CLI::App& app, Options& options, Texts& texts) {
       ->add_option("--frames", texts.frames,
                    "Frames to make: 1-48. Earlier frames are read or simulated first")
       ->type_name("FRAMES");
+  CLI::Option* file = simulate
+                          ->add_option("-o,--output", options.output,
+                                       "Also write the guides of one coat, in world space: one file per "
+                                       "frame, such as guides.%04d.hair, for `dynamics: {files: ...}`. "
+                                       "Format by its extension: .hair, .tfx, .usda or .abc")
+                          ->type_name("FILE");
+  simulate->add_option("--groom", options.groom, "Simulate only this groom, and write its guides with -o")
+      ->type_name("NAME");
+  simulate
+      ->add_flag("--as-groomed", options.as_groomed,
+                 "With -o, simulate nothing: write the guides as groomed, carried by their skin")
+      ->needs(file);
   simulate->add_flag("--explain", options.explain,
                      "List everything that determines the motion of each coat, and what has changed");
   simulate->add_flag("--prune", options.prune,

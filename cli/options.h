@@ -61,10 +61,11 @@ struct Options : RunOptions {
   int pixel_x = 0, pixel_y = 0;  ///< why: the pixel, from the upper left corner
   bool json = false;             ///< why, render --estimate: whether to print JSON
 
-  std::string groom;   ///< grow: the only groom to grow; empty: all grooms
+  std::string groom;   ///< grow, simulate: the only groom to grow or to simulate; empty: all grooms
   bool prune = false;  ///< grow, simulate: delete the files in its cache folders that the scene does not need
-  bool explain = false;  ///< grow, simulate: report what was stale in a cache, and why
-  bool lod = false;      ///< grow: write only the strands that remain at the picture's level of detail
+  bool explain = false;     ///< grow, simulate: report what was stale in a cache, and why
+  bool as_groomed = false;  ///< simulate: write the guides as groomed, without a simulation
+  bool lod = false;         ///< grow: write only the strands that remain at the picture's level of detail
 
   std::string frames;  ///< motionblur, stereo: frame numbers to insert in file names with a placeholder
   BlurFileParams motion_blur;  ///< motionblur: its parameters

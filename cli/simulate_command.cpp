@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/nearest_name.h"
 #include "cli/commands.h"
+#include "cli/guide_output.h"
 #include "cli/read_scene.h"
 #include "cli/run.h"
 #include "groom/operators/follow.h"
@@ -52,6 +54,7 @@ void report_motion(const MovingCoat& coat, const SimulationReport& done, Progres
 void prune_motion(const std::vector<MovingCoat>& coats, int last) {
   std::map<std::filesystem::path, std::vector<std::filesystem::path>> folders;
   for (const MovingCoat& coat : coats) {
+    if (!coat.params->is_simulated()) continue;
     std::vector<std::filesystem::path>& keep = folders[coat.store.store().folder()];
     keep.push_back(manifest_file(coat));
     for (int frame = coat.start + 1; frame <= last; ++frame) keep.push_back(coat.store.file(frame));
@@ -64,30 +67,54 @@ void prune_motion(const std::vector<MovingCoat>& coats, int last) {
   }
 }
 
-}  // namespace
-
-int run_simulate(const Options& options) {
-  Run run(options);
-  const SceneDescription scene = read_scene(options, run.display());
-  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-  const std::vector<MovingCoat> coats = moving_coats(scene, *assets);
-  if (coats.empty()) {
-    throw Error(ErrorKind::kArguments,
-                scene.files.front().string() + ": no groom of a character has `dynamics` that is simulated");
-  }
+/// Simulates the coats of a scene, or only those of the groom that `--groom` names.
+void simulate_coats(const Options& options, const SceneDescription& scene, const Assets& assets,
+                    const std::vector<MovingCoat>& coats, Run& run) {
   const auto [first, last] = wanted_frames(scene);
+  bool some = false;
+  std::string instead;
   for (const MovingCoat& coat : coats) {
+    if (!options.groom.empty() && coat.name != coat.character.name + "." + options.groom) continue;
+    if (!coat.params->is_simulated()) {
+      const AssetPath& files = coat.params->files;
+      instead += fmt::format("{}{}: {}", instead.empty() ? "" : "; ", coat.name,
+                             files.empty() ? "`mode: kinematic`" : "guides from " + files.path.string());
+      continue;
+    }
+    some = true;
     const std::vector<MotionChange> changes = changed_inputs(coat);
     if (options.explain) explain_coat(coat, changes);
     run.display().begin("simulate " + coat.name, std::max(1, last - std::max(first, coat.start + 1) + 1));
     const SimulationReport done =
-        simulate(scene, *assets, coat, first, last, run.job(), [&](int) { run.display().advance(1); });
+        simulate(scene, assets, coat, first, last, run.job(), [&](int) { run.display().advance(1); });
     run.display().end();
     store_inputs(coat);
     run.statistics().stages_s["simulate"] += done.seconds;
     report_motion(coat, done, run.display());
   }
-  if (options.prune) prune_motion(coats, last);
+  if (!instead.empty() && (some || !options.output.empty()))
+    std::cout << "not simulated: " << instead << "\n";
+  if (some || (!options.output.empty() && !instead.empty())) return;
+  throw Error(ErrorKind::kArguments,
+              scene.files.front().string() + ": " +
+                  (!instead.empty()        ? "nothing to simulate (" + instead + ")"
+                   : options.groom.empty() ? "no groom of a character has `dynamics` that is simulated"
+                                           : "no character has the groom " + quote(options.groom) +
+                                                 " with `dynamics` that is simulated"));
+}
+
+}  // namespace
+
+int run_simulate(const Options& options) {
+  Run run(options);
+  const SceneDescription scene = read_scene(options, run.display());
+  check_guide_output(options, scene);
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
+  const std::vector<MovingCoat> coats = moving_coats(scene, *assets);
+  const MovingCoat* written = options.output.empty() ? nullptr : &coat_to_write(options, coats);
+  if (!options.as_groomed) simulate_coats(options, scene, *assets, coats, run);
+  if (written) write_guides(options, scene, *assets, *written, run);
+  if (options.prune) prune_motion(coats, wanted_frames(scene).second);
   run.finish(options);
   return 0;
 }

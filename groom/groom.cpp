@@ -22,6 +22,9 @@ Groom::~Groom() = default;
 const FollicleTree& Groom::follicles() const { return impl_->source.follicles(); }
 StrandRole Groom::role() const { return impl_->role; }
 bool Groom::needs_closest_point() const { return impl_->stack->traits().needs_closest_point; }
+bool Groom::guides_need_closest_point() const {
+  return impl_->guides && impl_->stack->traits(0, impl_->follow).needs_closest_point;
+}
 StrandRepairs Groom::repairs() const {
   return impl_->source.imported ? impl_->source.imported->repairs() : StrandRepairs();
 }

@@ -108,6 +108,8 @@ class Groom {
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
+  /// Whether guides need closest points of the skin before `dynamics` moves them.
+  bool guides_need_closest_point() const;
   /// Hash of everything that shapes the strands, including live operators and the versions of the code.
   /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;

@@ -227,7 +227,7 @@ void Groom::find_tips() const {
   MovingGuides& guides = *impl_->guides;
   for (size_t i = 0; i < guides.follicles.size(); ++i) guides.tips.push_back(guides.roots.normal(i));
   // Strands that depend on the posed skin count as straight.
-  if (impl_->stack->traits(0, impl_->follow).needs_closest_point) return;
+  if (guides_need_closest_point()) return;
   PosedSkin rest;
   rest.keys = {impl_->source.rest.get(), 1};
   rest.guides_only = true;

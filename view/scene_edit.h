@@ -17,7 +17,7 @@ using FileStamps = std::map<std::filesystem::path, FileStamp>;
 FileStamps stamps_of(const std::vector<std::filesystem::path>& files);
 
 /// Returns all files on which the picture of a scene depends: the scene file, its included files, and all
-/// assets, including poses.
+/// assets, including poses and the strand files that move guides in its first frame.
 std::vector<std::filesystem::path> followed_files(const SceneDescription& scene);
 
 /// A scene as it was read after an edit.

@@ -13,6 +13,7 @@
 #include "base/program_identity.h"
 #include "groom/operators/follow.h"
 #include "world/asset_files.h"
+#include "world/file_motion.h"
 #include "world/sway.h"
 
 namespace pelage {
@@ -61,10 +62,10 @@ Inputs inputs_of(const SceneDescription& scene, const Assets& assets, const Movi
                 {"fps", fmt::format("{}", scene.units.fps)},
                 {"first frame", std::to_string(coat.start)}};
   for (const ParameterText& parameter : DynamicsParams::schema().describe(*coat.params)) {
-    const bool elsewhere = parameter.key == "directory" || parameter.key == "start" ||
-                           parameter.key == "preroll" || parameter.key.starts_with("wind.velocity") ||
-                           parameter.key.starts_with("wind.gusts") ||
-                           parameter.key.starts_with("wind.turbulence");
+    const bool elsewhere =
+        parameter.key == "files" || parameter.key == "directory" || parameter.key == "start" ||
+        parameter.key == "preroll" || parameter.key.starts_with("wind.velocity") ||
+        parameter.key.starts_with("wind.gusts") || parameter.key.starts_with("wind.turbulence");
     if (!elsewhere) inputs.emplace_back(parameter.key, parameter.text);
   }
   // Keyed values print as their value at one frame.
@@ -126,6 +127,7 @@ class HalfFrames {
       : scene_(scene), coat_(coat), frame_(frame), job_(job) {
     if (coat.params->mode == DynamicsMode::kKinematic)
       sway_.emplace(scene, assets, coat.character, coat.part, *coat.groom, *coat.params);
+    if (!coat.params->files.empty()) files_.emplace(scene, assets, coat, frame, job);
   }
 
   GuideTurns at(double time) {
@@ -133,14 +135,7 @@ class HalfFrames {
     const auto t = static_cast<float>(2 * time - half);
     GuideTurns turns = read(static_cast<int>(half));
     if (t == 0) return turns;
-    const GuideTurns& next = read(static_cast<int>(half) + 1);
-    for (size_t i = 0; i < turns.size(); i += 4) {
-      float* a = &turns[i];
-      const float* b = &next[i];
-      const float sign = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1.0f : 1.0f;
-      for (size_t k = 0; k < 4; ++k) a[k] = a[k] * (1 - t) + sign * b[k] * t;
-    }
-    return turns;
+    return blend_turns(std::move(turns), read(static_cast<int>(half) + 1), t);
   }
 
  private:
@@ -148,6 +143,7 @@ class HalfFrames {
     const auto known = known_.find(half);
     if (known != known_.end()) return known->second;
     if (sway_) return known_[half] = sway_->at(half);
+    if (files_) return known_[half] = files_->at(half);
     if (half <= 2 * coat_.start) {
       GuideTurns still;
       for (size_t i = 0; i < coat_.segments(); ++i) still.insert(still.end(), {0, 0, 0, 1});
@@ -169,7 +165,8 @@ class HalfFrames {
   const MovingCoat& coat_;
   double frame_;
   const Job& job_;
-  std::optional<Sway> sway_;  // only for `mode: kinematic`
+  std::optional<Sway> sway_;         // only for `mode: kinematic`
+  std::optional<FileMotion> files_;  // only with `files`
   std::map<int, GuideTurns> known_;
 };
 
@@ -188,7 +185,7 @@ std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Asset
   MovingCoat coat{character.name + "." + groom,      character, part,
                   assets.grooms.at(groom),           &dynamics, {},
                   dynamics.start - dynamics.preroll, {},        MotionStore(motion_folder(dynamics), {})};
-  if (dynamics.mode == DynamicsMode::kKinematic) return coat;
+  if (!dynamics.is_simulated()) return coat;
   for (const NameReference& name : dynamics.collide_with) {
     const FrameCharacter other{name.name, name.name, &scene.characters.find(name.name)->value, {}};
     for (size_t other_part = 0; other_part < other.params->parts.size(); ++other_part) {
@@ -205,10 +202,11 @@ std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Asset
 std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets& assets) {
   std::vector<MovingCoat> coats;
   for (const FrameCharacter& character : frame_characters(scene, assets)) {
+    if (character.member) continue;
     for (size_t part = 0; part < character.params->parts.size(); ++part) {
       for (const auto& groom : character.params->parts[part].grooms.items) {
         auto coat = moving_coat(scene, assets, character, part, groom.name);
-        if (coat && coat->params->mode == DynamicsMode::kSimulated) coats.push_back(std::move(*coat));
+        if (coat) coats.push_back(std::move(*coat));
       }
     }
   }
@@ -220,8 +218,7 @@ bool has_simulated_coat(const SceneDescription& scene) {
     for (const PartParams& part : character.value.parts) {
       for (const auto& groom : part.grooms.items) {
         const auto* coat = scene.grooms.find(groom.name);
-        if (coat && coat->value.dynamics && coat->value.dynamics->mode == DynamicsMode::kSimulated)
-          return true;
+        if (coat && coat->value.dynamics && coat->value.dynamics->is_simulated()) return true;
       }
     }
   }
@@ -262,6 +259,11 @@ std::pair<int, int> frames_of_motion(const CameraParams& camera, double frame) {
   const double close = frame + std::max(0.5, double(camera.shutter.y));
   const auto holder = [](double half) { return static_cast<int>(std::ceil(half / 2)); };
   return {holder(std::floor(2 * open)), holder(std::ceil(2 * close))};
+}
+
+GuideTurns guide_turns(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat,
+                       double frame, const Job& job) {
+  return HalfFrames(scene, assets, coat, frame, job).at(frame);
 }
 
 std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Assets& assets,

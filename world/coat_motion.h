@@ -31,9 +31,9 @@ struct MovingCoat {
   size_t segments() const;
 };
 
-/// Returns a coat if it has `dynamics`. moving_coats(): all coats to simulate, in the order of the scene.
-/// A coat with `mode: kinematic` has no inputs and no stored motion. `scene` must outlive the result. Throws
-/// Error (kInput) for missing poses.
+/// Returns a coat if it has `dynamics`. moving_coats(): all such coats, without those of crowds, in the order
+/// of the scene. A coat that is not simulated has no inputs and no stored motion. `scene` must outlive the
+/// result. Throws Error (kInput) for missing poses.
 std::vector<MovingCoat> moving_coats(const SceneDescription& scene, const Assets& assets);
 std::optional<MovingCoat> moving_coat(const SceneDescription& scene, const Assets& assets,
                                       const FrameCharacter& character, size_t part, const std::string& groom);
@@ -55,8 +55,13 @@ std::filesystem::path manifest_file(const MovingCoat& coat);
 /// Returns the first and the last frame whose stored motion a picture of a frame needs.
 std::pair<int, int> frames_of_motion(const CameraParams& camera, double frame);
 
+/// Returns how the guides of a coat are turned at a frame. Throws like moved_coat().
+GuideTurns guide_turns(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat,
+                       double frame, const Job& job);
+
 /// Returns a coat as it moves in a frame, or the coat itself if it has no `dynamics`. `keys`: number of
-/// motion keys of its skin. Throws Error (kInput) that names the command to run if the motion is missing.
+/// motion keys of its skin. Throws Error (kInput) if the motion is missing, with the command to run if the
+/// coat is simulated.
 std::shared_ptr<const Groom> moved_coat(const SceneDescription& scene, const Assets& assets,
                                         const FrameCharacter& character, size_t part,
                                         const std::string& groom, double frame, size_t keys, const Job& job);

@@ -11,40 +11,12 @@
 #include "base/job.h"
 #include "base/memory_budget.h"
 #include "geom/closest_point.h"
-#include "geom/tessellation.h"
 #include "groom/operators/follow.h"
 #include "groom/sim/guide_simulation.h"
+#include "world/guide_poses.h"
 
 namespace pelage {
 namespace {
-
-/// A rotation whose columns are the axes of a follicle frame.
-Imath::Quatd turn_of(const Frame& frame) {
-  const V3d x(frame.tangent), y(frame.bitangent), z(frame.normal);
-  const double trace = x.x + y.y + z.z;
-  Imath::Quatd q;
-  if (trace > 0) {
-    q = {1 + trace, V3d(y.z - z.y, z.x - x.z, x.y - y.x)};
-  } else if (x.x > y.y && x.x > z.z) {
-    q = {y.z - z.y, V3d(1 + x.x - y.y - z.z, x.y + y.x, z.x + x.z)};
-  } else if (y.y > z.z) {
-    q = {z.x - x.z, V3d(x.y + y.x, 1 + y.y - x.x - z.z, y.z + z.y)};
-  } else {
-    q = {x.y - y.x, V3d(z.x + x.z, y.z + z.y, 1 + z.z - x.x - y.y)};
-  }
-  return q.normalize();
-}
-
-/// The triangles of a skin, fine enough for collisions. They are the same for all poses, even for those in
-/// which edges have no length, because collisions follow a triangle from one moment to the next.
-SkinMesh triangles_of(const LimitSurface& skin, const Job& job) {
-  View everywhere;
-  everywhere.focal_pixels = 1e12f;
-  TessellationOptions options;
-  options.max_rate = skin.topology().is_flat() ? 1 : 2;
-  options.edge_pixels = 0;  // no edge is short enough for less than the max rate, even one of no length
-  return tessellate(std::span(&skin, 1), everywhere, options, job);
-}
 
 /// Triangles of a skin at a time, to collide with.
 struct PosedTriangles {
@@ -52,7 +24,7 @@ struct PosedTriangles {
   std::optional<ClosestPointTree> tree;
   Box3f box;
 
-  PosedTriangles(const LimitSurface& skin, const Job& job) : mesh(triangles_of(skin, job)) {
+  PosedTriangles(const LimitSurface& skin, const Job& job) : mesh(guide_triangles(skin, job)) {
     if (mesh.triangle_count() == 0) return;
     tree.emplace(mesh, 0, &job);
     for (size_t v = 0; v < mesh.vertex_count(); ++v) box.extendBy(mesh.position(v));
@@ -117,18 +89,11 @@ class CoatSimulation {
  private:
   static constexpr size_t kBytesOfPoint = 600;
 
-  LimitSurface posed_skin(const FrameCharacter& character, size_t part, double time) const {
-    CameraParams instant;
-    instant.shutter = V2f(0);
-    const CharacterPose pose = pose_character(character, part, assets_, instant, time);
-    return LimitSurface(pose.topology, pose.shutter.cages.front());
-  }
-
   /// The skins that guides must not pass, without their own. Those without triangles have no tree.
   Shapes other_shapes(double time) const {
     Shapes shapes;
     for (const auto& [character, part] : coat_.colliders)
-      shapes.push_back(std::make_shared<PosedTriangles>(posed_skin(character, part, time), job_));
+      shapes.push_back(std::make_shared<PosedTriangles>(posed_skin(character, part, assets_, time), job_));
     return shapes;
   }
 
@@ -144,15 +109,10 @@ class CoatSimulation {
   }
 
   std::unique_ptr<PosedMoment> posed(double time) const {
-    const LimitSurface skin = posed_skin(coat_.character, coat_.part, time);
+    const LimitSurface skin = posed_skin(coat_.character, coat_.part, assets_, time);
     auto at = std::make_unique<PosedMoment>();
     at->moment.meters_per_unit = unit_;
-    const FollicleTree& follicles = coat_.groom->follicles();
-    for (const uint32_t f : coat_.groom->guides()->follicles) {
-      const RootAddress& root = follicles.root(f);
-      at->moment.roots.push_back({V3d(skin.evaluate(root.face, root.u, root.v).position) * unit_,
-                                  turn_of(skin.frame(root.face, root.u, root.v))});
-    }
+    at->moment.roots = guide_roots(*coat_.groom, skin, unit_);
     if (!coat_.params->collide) return at;
     at->own.emplace(skin, job_);
     if (at->own->tree) at->moment.skin = &*at->own->tree;
@@ -163,30 +123,13 @@ class CoatSimulation {
   std::vector<GuideShape> shapes() const {
     const Groom& groom = *coat_.groom;
     const LimitSurface& rest = *assets_.skins.at(coat_.character.params->parts[coat_.part].skin.name).rest;
-    PosedSkin pose;
-    pose.keys = {&rest, 1};
-    SkinMesh mesh;
-    std::vector<ClosestPointTree> trees;
-    if (groom.needs_closest_point()) {
-      mesh = triangles_of(rest, job_);
-      trees.emplace_back(mesh, 0, &job_);
-      pose.trees = trees;
-    }
     const double scale = coat_.character.params->transform.scale.at(coat_.start) * unit_;
-    const std::vector<uint32_t>& guides = groom.guides()->follicles;
-    std::vector<GuideShape> shapes(guides.size());
-    groom.visit_guides(pose, [&](size_t guide, const Strands& strands, size_t s) {
+    std::vector<GuideShape> shapes = groomed_guides(groom, rest, scale, job_);
+    const RestPose pose(rest, groom.needs_closest_point(), job_);
+    groom.visit_guides(pose.skin(), [&](size_t guide, const Strands& strands, size_t s) {
       const size_t middle = (strands.first_point(s) + strands.first_point(s + 1)) / 2;
       const std::optional<float>& diameter = coat_.params->diameter;
       shapes[guide].radius = diameter ? *diameter / 2 : strands.radius(middle) * scale;
-    });
-    pose.guides_only = true;
-    groom.visit_guides(pose, [&](size_t guide, const Strands& strands, size_t s) {
-      const RootAddress& root = groom.follicles().root(guides[guide]);
-      const Frame frame = rest.frame(root.face, root.u, root.v);
-      const uint32_t begin = strands.first_point(s);
-      for (uint32_t p = begin; p < strands.first_point(s + 1); ++p)
-        shapes[guide].points.push_back(V3d(frame.to_local(strands.point(p) - strands.point(begin))) * scale);
     });
     return shapes;
   }

@@ -17,6 +17,7 @@
 #include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
 #include "world/light_links.h"
+#include "world/motion_files.h"
 #include "world/presets.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"
@@ -343,6 +344,7 @@ SceneDescription read_scene(const SceneSource& source, const std::vector<Overrid
       check_camera_keys(scene, *document, problems);
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
+      check_motion_files(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);
       complete_frame(source, overrides, *document, scene);
       set_scale(scene);

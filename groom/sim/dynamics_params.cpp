@@ -73,6 +73,12 @@ const Schema<DynamicsParams>& DynamicsParams::schema() {
         {.help = "`simulated`: by `pelage simulate`. `kinematic`: guides lag behind their skin and sway like "
                  "damped springs, as `sway_frequency` and `sway_damping` say; all other keys but `guides`, "
                  "`neighbours` and `after` have no effect. Needs no simulation, also for crowds"});
+    s.key("files", &DynamicsParams::files,
+          {.help = "Strand files with the guides of each frame (.hair, .tfx, .usda, .abc), such as "
+                   "`guides.%04d.hair`: the guides follow them and are not simulated. Each file holds the "
+                   "guides that `pelage simulate -o` writes, in the same order and in world space. Only "
+                   "`guides`, `neighbours` and `after` may be given beside it",
+           .default_text = "none"});
     s.key("guides", &DynamicsParams::guides,
           {.help = "Number of strands whose motion is computed: those that level of detail keeps longest",
            .min = 1,

@@ -21,6 +21,9 @@ struct EnumNames<DynamicsMode> {
 /// `dynamics:` of a groom. SI units.
 struct DynamicsParams {
   DynamicsMode mode = DynamicsMode::kSimulated;
+  /// Strand files that hold the guides of each frame, with a placeholder for its number (world/frames.h);
+  /// empty: the guides are computed.
+  AssetPath files;
   std::optional<int> guides;
   int neighbours = 4;
   NameReference after;
@@ -43,6 +46,8 @@ struct DynamicsParams {
   AssetPath directory{"cache", {}};
   static const Schema<DynamicsParams>& schema();
 
+  /// Whether `pelage simulate` makes the motion.
+  bool is_simulated() const { return mode == DynamicsMode::kSimulated && files.empty(); }
   /// Number of guides of a coat with so many strands. Sway follows the skin, which varies slowly across a
   /// coat, and each animal of a crowd has turns of its own, so fewer guides suffice for it.
   size_t guide_count(size_t strands) const;

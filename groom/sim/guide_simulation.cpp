@@ -45,6 +45,16 @@ struct GuideSimulation::Scratch {
   Wind::Cell air;
 };
 
+bool GuideShape::has_directions() const {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    const double length = (points[i + 1] - points[i]).length();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  return shortest > 1e-4 * longest && longest > 1e-9 && std::isfinite(longest);
+}
+
 GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<GuideShape> shapes,
                                  const SkinMoment& start)
     : params_(params), shapes_(std::move(shapes)) {
@@ -52,15 +62,7 @@ GuideSimulation::GuideSimulation(const DynamicsParams& params, std::vector<Guide
   always_rigid_.assign(shapes_.size(), 0);
   for (size_t g = 0; g < shapes_.size(); ++g) {
     const GuideShape& shape = shapes_[g];
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-    for (size_t i = 0; i < segments_; ++i) {
-      const double length = (shape.points[i + 1] - shape.points[i]).length();
-      shortest = std::min(shortest, length);
-      longest = std::max(longest, length);
-    }
-    // A strand of no length, or with coinciding points, has no direction.
-    const bool usable = shortest > 1e-4 * longest && longest > 1e-9 && std::isfinite(longest) &&
-                        shape.radius > 0 && std::isfinite(shape.radius);
+    const bool usable = shape.has_directions() && shape.radius > 0 && std::isfinite(shape.radius);
     always_rigid_[g] = !usable;
     std::vector<V3d> points;
     for (size_t i = 0; i <= segments_; ++i) {

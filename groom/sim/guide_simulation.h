@@ -17,6 +17,9 @@ struct Job;
 struct GuideShape {
   std::vector<V3d> points;  ///< from the root on, in metres, along the axes of the root's frame
   double radius = 0;        ///< in metres
+
+  /// Whether every segment has a direction. A strand of no length, or with coinciding points, has none.
+  bool has_directions() const;
 };
 
 /// Simulates the guides of a coat. Each guide is a rod of its own, clamped to the skin, so the result does

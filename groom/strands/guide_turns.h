@@ -10,4 +10,8 @@ namespace pelage {
 /// guide 0 come first.
 using GuideTurns = std::vector<float>;
 
+/// Interpolates linearly between turns, segment by segment: `a` at t = 0, `b` at t = 1. The quaternions of
+/// the result are not normalised.
+GuideTurns blend_turns(GuideTurns a, const GuideTurns& b, float t);
+
 }  // namespace pelage
