@@ -15,6 +15,7 @@
 #include "cli/options.h"
 #include "cli/read_scene.h"
 #include "render/render_frame.h"
+#include "world/dark_lights.h"
 
 namespace pelage {
 namespace {

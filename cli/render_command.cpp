@@ -15,6 +15,7 @@
 #include "cli/run.h"
 #include "image/display_image.h"
 #include "image/exr_file.h"
+#include "world/dark_lights.h"
 #include "world/world.h"
 
 namespace pelage {

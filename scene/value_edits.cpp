@@ -64,6 +64,7 @@ class EditedText {
   void replace(const ValueEdit& edit, Value& value);
   void remove(const ValueEdit& edit, Value& block);
   void add(const ValueEdit& edit, Value& block);
+  void begin_block(const ValueEdit& edit);
   size_t byte_of(const SourcePosition& position) const;
   // Whether an unquoted scalar is at its position as it was read.
   bool is_plain(const Value& value) const {
@@ -109,6 +110,10 @@ size_t EditedText::byte_of(const SourcePosition& position) const {
 
 void EditedText::apply(const ValueEdit& edit) {
   Value* block = &root_;
+  if (edit.path.size() == 2 && !edit.block.empty() && !root_.find(edit.path[0])) {
+    begin_block(edit);
+    return;
+  }
   for (size_t i = 0; i + 1 < edit.path.size(); ++i) {
     block = block->find(edit.path[i]);
     if (!block || !block->is_map() || block->entries().empty())
@@ -197,8 +202,12 @@ void EditedText::remove(const ValueEdit& edit, Value& block) {
   const auto entry = std::find_if(entries.begin(), entries.end(),
                                   [&](const Value::Entry& e) { return e.key == edit.path.back(); });
   if (entry == entries.end()) refuse(block.position(), "has no `" + joined(edit.path) + "`");
-  if (entries.size() == 1)
-    refuse(entry->key_position, "`" + joined(edit.path) + "` is the last one here; remove it by hand");
+  if (entries.size() == 1) {
+    if (edit.path.size() == 1)
+      refuse(entry->key_position, "`" + joined(edit.path) + "` is the last one here; remove it by hand");
+    apply({{edit.path.begin(), edit.path.end() - 1}, {}, {}, true});
+    return;
+  }
   size_t begin = byte_of(entry->key_position), end = 0;
   if (text_[byte_of(block.position())] == '{') {
     end = end_in_brackets(text_, begin);
@@ -215,6 +224,17 @@ void EditedText::remove(const ValueEdit& edit, Value& block) {
   }
   entries.erase(entry);
   splice(begin, end - begin, "");
+}
+
+/// Adds a block together with the block of the document around it.
+void EditedText::begin_block(const ValueEdit& edit) {
+  if (!root_.is_map() || root_.entries().empty() || text_[byte_of(root_.position())] == '{')
+    refuse({file_, 0, 0}, "has no block `" + edit.path[0] + "`");
+  const std::string line_end = text_.find("\r\n") == std::string::npos ? "\n" : "\r\n";
+  const std::string entry = key_text(edit.path[1]) + ": " + edit.block;
+  const std::string text = key_text(edit.path[0]) + ":" + line_end + "  " + entry + line_end;
+  root_.entries().push_back({edit.path[0], {}, read_text(entry, file_)});
+  splice(text_.size(), 0, (text_.ends_with('\n') ? "" : line_end) + text);
 }
 
 void EditedText::add(const ValueEdit& edit, Value& block) {

@@ -20,12 +20,13 @@ struct ValueEdit {
 
 /// Returns the text of a scene file with new values. Changes only the bytes of these values, and keeps all
 /// others: comments, formatting and line ends. Adds a missing key after another key of its block, and a block
-/// behind all others, or before all others in brackets. Removes a key together with the comments behind its
-/// value.
+/// behind all others, or before all others in brackets; if the document has no block around the new block,
+/// adds both at the end. Removes a key together with the comments behind its value, and also the block around
+/// it if this becomes empty.
 ///
 /// Throws Error (kInput) with one line if a value cannot be changed in this way: its block is not in the
 /// text, the value is neither a number nor a list of as many numbers as the new value has, a new block exists
-/// already, or a removed key is missing or the last of its block. `file`: file
+/// already, or a removed key is missing or the last one of the document. `file`: file
 /// name for messages.
 std::string with_values(const std::string& text, const std::string& file,
                         const std::vector<ValueEdit>& edits);

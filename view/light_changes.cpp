@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "scene/yaml_text.h"
 
 namespace pelage {
 namespace {
@@ -40,14 +41,32 @@ std::map<std::string, std::vector<double>> values_of(const Params& light, double
   if constexpr (requires { light.radius; }) values["radius"] = {double{light.radius}};
   if constexpr (requires { light.cone; }) values["cone"] = {double{light.cone}};
   if constexpr (requires { light.angle; }) values["angle"] = {double{light.angle}};
-  if constexpr (std::is_same_v<Params, RectangleLightParams>)
-    values["size"] = {double{light.size.x}, double{light.size.y}};
+  if constexpr (requires { light.size; }) values["size"] = {double{light.size.x}, double{light.size.y}};
   return values;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).parent_path();
+}
+
+/// Returns the name of a file as it is in a scene file: relative, unless the file is in a folder elsewhere.
+std::string relative_to_scene(const Value& name, const std::filesystem::path& scene) {
+  const std::filesystem::path path = name.text();
+  const bool from_file = name.position().line > 0;
+  const auto absolute = from_file ? folder_of(name.position().file) / path : std::filesystem::absolute(path);
+  const auto relative = absolute.lexically_normal().lexically_relative(folder_of(scene).lexically_normal());
+  const bool is_below = !relative.empty() && *relative.begin() != "..";
+  return (is_below && !(from_file && path.is_absolute()) ? relative : absolute.lexically_normal()).string();
 }
 
 /// A new light as YAML: {type: sphere, radius: 0.5}.
 std::string block_text(const LightChange& change) {
   std::string text = "{type: " + change.added_type;
+  for (const auto& [key, value] : change.copied) {
+    if (!change.values.contains(key)) text += ", " + key + ": " + value;
+  }
+  for (const auto& [key, name] : change.files)
+    text += ", " + key + ": " + yaml_text(Value::scalar({}, name, true));
   for (const auto& [key, numbers] : change.values) text += ", " + key + ": " + numbers_text(numbers);
   return text + "}";
 }
@@ -56,8 +75,8 @@ std::string block_text(const LightChange& change) {
 
 std::vector<ValueEdit> light_change_edits(const LightChanges& changes) {
   std::vector<ValueEdit> edits, removals;
-  for (const auto& [name, change] : changes) {
-    ValueEdit edit{{"lights", name}, {}};
+  for (const auto& [item, change] : changes) {
+    ValueEdit edit{{item.block(), item.name}, {}};
     if (change.removed) {
       edit.removed = true;
       removals.push_back(std::move(edit));
@@ -65,16 +84,23 @@ std::vector<ValueEdit> light_change_edits(const LightChanges& changes) {
       edit.block = block_text(change);
       edits.push_back(std::move(edit));
     } else {
-      for (const auto& [key, numbers] : change.values) edits.push_back({{"lights", name, key}, numbers});
+      for (const auto& [key, numbers] : change.values)
+        edits.push_back({{item.block(), item.name, key}, numbers});
     }
   }
   edits.insert(edits.end(), removals.begin(), removals.end());
   return edits;
 }
 
-std::vector<Override> light_change_overrides(const LightChanges& changes) {
+std::vector<Override> light_change_overrides(const LightChanges& changes,
+                                             const std::filesystem::path& scene) {
+  // Files of overrides are relative to the current folder.
+  LightChanges placed = changes;
+  for (auto& [item, change] : placed) {
+    for (auto& [key, name] : change.files) name = (folder_of(scene) / name).string();
+  }
   std::vector<Override> overrides;
-  for (const ValueEdit& edit : light_change_edits(changes)) {
+  for (const ValueEdit& edit : light_change_edits(placed)) {
     Override override;
     for (const std::string& part : edit.path) override.key += (override.key.empty() ? "" : ".") + part;
     override.value = edit.block.empty() && !edit.removed ? numbers_text(edit.numbers) : edit.block;
@@ -86,35 +112,61 @@ std::vector<Override> light_change_overrides(const LightChanges& changes) {
 
 std::vector<ViewLight> view_lights(const SceneDescription& scene, double frame, const LightChanges& changes) {
   std::vector<ViewLight> lights;
-  for (const auto& light : scene.lights.items) {
+  const auto add = [&](const RigItem& item, const auto& value) {
     std::visit(
         [&]<class Params>(const Params& params) {
-          lights.push_back(
-              {light.name, Params::kTypeName, values_of(params, frame), changes.contains(light.name)});
+          lights.push_back({item, Params::kTypeName, values_of(params, frame), changes.contains(item)});
         },
-        light.value);
-  }
+        value);
+  };
+  for (const auto& light : scene.lights.items) add(light.name, light.value);
+  for (const auto& magnet : scene.magnets.items) add({magnet.name, true}, magnet.value);
   return lights;
 }
 
-const std::vector<LightKey>& light_keys(const std::string& type) {
-  static const std::map<std::string, std::vector<LightKey>> table = [] {
-    const LightKey position{"position", 3, -kFar, kFar}, look_at{"look_at", 3, -kFar, kFar},
-        radius{"radius", 1, kTiny, kFar}, intensity{"intensity", 1, 0, kFar};
-    return std::map<std::string, std::vector<LightKey>>{
-        {"rectangle", {position, look_at, {"size", 2, kTiny, kFar}, intensity}},
-        {"disk", {position, look_at, radius, intensity}},
-        {"sphere", {position, radius, intensity}},
-        {"point", {position, look_at, radius, intensity}},
-        {"spot", {position, look_at, radius, {"cone", 1, kCones[0], kCones[1]}, intensity}},
-        {"sun", {{"direction", 3, -kFar, kFar}, {"angle", 1, kSuns[0], kSuns[1]}, intensity}},
-        {"mesh", {}},
-        {"environment", {}}};
+const std::vector<LightKey>& light_keys(const std::string& type, bool of_magnets) {
+  using Table = std::map<std::string, std::vector<LightKey>>;
+  static const LightKey position{"position", 3, -kFar, kFar}, look_at{"look_at", 3, -kFar, kFar},
+      radius{"radius", 1, kTiny, kFar}, size{"size", 2, kTiny, kFar};
+  static const Table magnets = [] {
+    const LightKey share{"share", 1, 0, 1};
+    return Table{{"rectangle", {position, look_at, size, share}}, {"sphere", {position, radius, share}}};
   }();
+  static const Table lights = [] {
+    const LightKey intensity{"intensity", 1, 0, kFar};
+    return Table{{"rectangle", {position, look_at, size, intensity}},
+                 {"disk", {position, look_at, radius, intensity}},
+                 {"sphere", {position, radius, intensity}},
+                 {"point", {position, look_at, radius, intensity}},
+                 {"spot", {position, look_at, radius, {"cone", 1, kCones[0], kCones[1]}, intensity}},
+                 {"sun", {{"direction", 3, -kFar, kFar}, {"angle", 1, kSuns[0], kSuns[1]}, intensity}},
+                 {"mesh", {}},
+                 {"environment", {}}};
+  }();
+  const Table& table = of_magnets ? magnets : lights;
   if (const auto found = table.find(type); found != table.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, keys] : table) names.push_back(name);
-  throw Error(ErrorKind::kArguments, "unknown type of light " + quote(type) + suggest(type, names));
+  throw Error(ErrorKind::kArguments, std::string("unknown type of ") + (of_magnets ? "magnet " : "light ") +
+                                         quote(type) + suggest(type, names));
+}
+
+LightChange copy_of(const Value& document, const std::filesystem::path& scene, const RigItem& item,
+                    const std::map<std::string, std::vector<double>>& moved) {
+  const Value* block = document.find(item.block());
+  const Value* found = block && block->is_map() ? block->find(item.name) : nullptr;
+  if (!found || !found->is_map())
+    throw Error(ErrorKind::kArguments, quote(item.name) + " is not in the scene file");
+  LightChange copy{"", false, moved};
+  for (const Value::Entry& entry : found->entries()) {
+    if (entry.key == "type")
+      copy.added_type = entry.value.text();
+    else if ((entry.key == "file" || entry.key == "profile") && entry.value.is_scalar())
+      copy.files[entry.key] = relative_to_scene(entry.value, scene);
+    else
+      copy.copied[entry.key] = yaml_text(entry.value);
+  }
+  return copy;
 }
 
 }  // namespace pelage

@@ -15,6 +15,7 @@
 #include "render/frame/frame_watch.h"
 #include "render/render_frame.h"
 #include "view/why_answer.h"
+#include "world/dark_lights.h"
 #include "world/kept_render.h"
 #include "world/world.h"
 

@@ -6,24 +6,22 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/vector.h"
 #include "scene/value_edits.h"
+#include "view/command_context.h"
 #include "view/command_values.h"
 #include "view/light_changes.h"
+#include "view/rig_commands.h"
 #include "view/scene_edit.h"
 #include "world/frames.h"
 #include "world/scene_schema.h"
@@ -81,15 +79,6 @@ constexpr double kMaxStops = 20;
 constexpr double kMaxTint = 1e3;
 constexpr double kMaxPixel = 65536;  // as image.width
 
-/// What a command works on.
-struct Context {
-  const std::filesystem::path& scene;
-  const std::vector<Override>& overrides;
-  ViewState& state;
-  std::mutex& writing;
-  bool may_write;
-};
-
 V3f read_point(const json& request, const char* key) {
   const auto found = request.find(key);
   const std::vector<double> v =
@@ -107,19 +96,7 @@ CameraMove read_move(const json& request, const V3f& up) {
   return move;
 }
 
-/// Writes values into the scene file if the action is "write". Returns them as text.
-json values_answer(const Context& context, const std::string& action, const std::vector<ValueEdit>& edits) {
-  const bool writes = action == "write";
-  if (writes && !context.may_write)
-    throw Error(ErrorKind::kArguments, "with --bind, pages cannot write the scene file; copy the text");
-  if (writes) {
-    const std::lock_guard lock(context.writing);
-    write_values(context.scene, context.overrides, edits);
-  }
-  return {{"text", values_text(edits)}, {"written", writes}};
-}
-
-json run_camera(const Context& context, const std::string& body) {
+json run_camera(const CommandContext& context, const std::string& body) {
   const std::array<std::string, 3> keys{"action", "position", "look_at"};
   const std::array<std::string, 4> actions{"move", "reset", "text", "write"};
   const json request = read_object(body, keys);
@@ -149,23 +126,6 @@ json run_camera(const Context& context, const std::string& body) {
   }
 }
 
-/// Writes lights like values_answer(). This change of the file does not end what clients have changed about
-/// them otherwise.
-json lights_answer(const Context& context, const std::string& action, const std::vector<ValueEdit>& edits) {
-  ViewControl& control = context.state.control();
-  std::set<std::string> names;
-  if (action == "write") {
-    for (const ValueEdit& edit : edits) names.insert(edit.path[1]);
-  }
-  control.begin_writing_lights(names);
-  try {
-    return values_answer(context, action, edits);
-  } catch (...) {
-    control.take_written_lights(names);
-    throw;
-  }
-}
-
 /// Ends changes of values that a mix has written, which they would hide.
 void end_mixed(ViewControl& control, const std::vector<ValueEdit>& edits) {
   control.change_lights([&](LightChanges& changes) {
@@ -190,7 +150,7 @@ LightMix read_mix(const std::string& light, const json& value) {
   return mix;
 }
 
-json run_lights(const Context& context, const std::string& body) {
+json run_lights(const CommandContext& context, const std::string& body) {
   const std::array<std::string, 3> keys{"action", "edit", "lights"};
   const std::array<std::string, 2> actions{"text", "write"};
   const json request = read_object(body, keys);
@@ -204,7 +164,7 @@ json run_lights(const Context& context, const std::string& body) {
   const int64_t shown = edit != request.end() && edit->is_number_integer() ? edit->get<int64_t>() : -1;
   const ViewStatus status = context.state.status();
   std::vector<Override> overrides = context.overrides;
-  for (Override& override : light_change_overrides(context.state.control().lights()))
+  for (Override& override : light_change_overrides(context.state.control().lights(), context.scene))
     overrides.push_back(std::move(override));
   const SceneDescription file = load_scene(context.scene, overrides);
   const auto changed = [&](const LightMix& mix) {
@@ -214,108 +174,32 @@ json run_lights(const Context& context, const std::string& body) {
   };
   if (!status.edit || shown != status.edits || std::any_of(mixes.begin(), mixes.end(), changed))
     throw Error(ErrorKind::kArguments, "the scene has changed since this picture; look at the new one first");
-  const std::vector<ValueEdit> edits = light_edits(status.edit->scene, mixes);
+  std::vector<ValueEdit> edits = light_edits(status.edit->scene, mixes);
   if (edits.empty()) throw Error(ErrorKind::kArguments, "lights: nothing is changed");
-  json answer = lights_answer(context, action, edits);
-  if (action == "write") end_mixed(context.state.control(), edits);
-  return answer;
-}
-
-/// Reads new values of a light. `type`: of the light.
-std::map<std::string, std::vector<double>> read_light_values(const json& request, const std::string& type) {
-  const std::vector<LightKey>& known = light_keys(type);
-  const auto values = request.find("values");
-  std::map<std::string, std::vector<double>> read;
-  if (values == request.end()) return read;
-  std::vector<std::string> names;
-  for (const LightKey& key : known) names.push_back(key.name);
-  check_object(*values, "values of a light of type " + type, names);
-  for (const LightKey& key : known) {
-    if (const auto value = values->find(key.name); value != values->end())
-      read[key.name] = read_numbers(*value, key.name, key.numbers, key.min, key.max);
-  }
-  return read;
-}
-
-/// Returns a light of the shown picture by the key `light` of a request. Throws Error (kArguments) for a
-/// light that options `--set` cannot address.
-ViewLight read_light(const json& request, const ViewStatus& status) {
-  std::vector<std::string> names;
-  for (const ViewLight& light : status.lights) names.push_back(light.name);
-  const std::string name = read_choice(request, "light", names);
-  if (name.find('.') != std::string::npos)
-    refuse_command("light " + quote(name) +
-                   ": a name with a dot cannot be changed here; edit the file by hand");
-  return *std::find_if(status.lights.begin(), status.lights.end(),
-                       [&](const ViewLight& light) { return light.name == name; });
-}
-
-/// Returns a name that no light has.
-std::string new_light_name(const std::string& type, const ViewStatus& status, const LightChanges& changes) {
-  const auto is_taken = [&](const std::string& name) {
-    return changes.contains(name) || std::any_of(status.lights.begin(), status.lights.end(),
-                                                 [&](const ViewLight& light) { return light.name == name; });
-  };
-  std::string name = type;
-  for (int number = 2; is_taken(name); ++number) name = fmt::format("{}_{}", type, number);
-  return name;
-}
-
-json run_rig(const Context& context, const std::string& body) {
-  const std::array<std::string, 4> keys{"action", "light", "type", "values"};
-  const std::array<std::string, 6> actions{"change", "add", "remove", "reset", "text", "write"};
-  const json request = read_object(body, keys);
-  const std::string action = read_choice(request, "action", actions);
+  if (action == "text") return lights_answer(context, action, edits);
+  // The file does not have lights that the view has added: they keep the values until they are written.
   ViewControl& control = context.state.control();
-  const ViewStatus status = context.state.status();
-  if (action == "change") {
-    const ViewLight light = read_light(request, status);
-    const auto values = read_light_values(request, light.type);
-    control.change_lights([&](LightChanges& changes) {
-      for (const auto& [key, numbers] : values) changes[light.name].values[key] = numbers;
-    });
-    return json::object();
-  }
-  if (action == "add") {
-    const auto given = request.find("type");
-    const std::string type =
-        given != request.end() && given->is_string() ? given->get<std::string>() : std::string();
-    const auto values = read_light_values(request, type);
-    if (light_keys(type).empty())
-      refuse_command("a light of type " + type + " has no place to drag; add it by hand");
-    std::string name;
-    control.change_lights([&](LightChanges& changes) {
-      constexpr size_t kMostChanges = 10'000;
-      if (changes.size() >= kMostChanges)
-        refuse_command("too many changes; write them into the scene file first");
-      name = new_light_name(type, status, changes);
-      changes[name] = {type, false, values};
-    });
-    return {{"light", name}};
-  }
-  if (action == "remove") {
-    const std::string name = read_light(request, status).name;
-    control.change_lights([&](LightChanges& changes) {
-      const bool is_new = changes.contains(name) && !changes[name].added_type.empty();
-      if (is_new)
-        changes.erase(name);
-      else
-        changes[name] = {"", true, {}};
-    });
-    return json::object();
-  }
-  if (action == "reset") {
-    control.change_lights([](LightChanges& changes) { changes.clear(); });
-    return json::object();
-  }
-  const LightChanges changes = control.lights();
-  if (changes.empty()) refuse_command("the lights are those of the scene: nothing to write");
-  json answer = lights_answer(context, action, light_change_edits(changes));
-  if (action == "write") control.end_lights(changes);
+  const LightChanges known = control.lights();
+  const auto is_in_file = [&](const ValueEdit& value) {
+    const auto change = known.find(value.path[1]);
+    return change == known.end() || change->second.added_type.empty();
+  };
+  const auto first_new = std::stable_partition(edits.begin(), edits.end(), is_in_file);
+  const std::vector<ValueEdit> added(first_new, edits.end());
+  edits.erase(first_new, edits.end());
+  json answer = edits.empty() ? json{{"text", values_text(added)}, {"written", true}}
+                              : lights_answer(context, action, edits);
+  end_mixed(control, edits);
+  control.change_lights([&](LightChanges& changes) {
+    for (const ValueEdit& value : added) {
+      if (const auto change = changes.find(value.path[1]); change != changes.end())
+        change->second.values[value.path[2]] = value.numbers;
+    }
+  });
   return answer;
 }
 
-json run_region(const Context& context, const std::string& body) {
+json run_region(const CommandContext& context, const std::string& body) {
   const std::array<std::string, 1> keys{"region"};
   const json request = read_object(body, keys);
   const json region = request.value("region", json());
@@ -332,7 +216,7 @@ json run_region(const Context& context, const std::string& body) {
   return json::object();
 }
 
-json run_frame(const Context& context, const std::string& body) {
+json run_frame(const CommandContext& context, const std::string& body) {
   const std::array<std::string, 1> keys{"frame"};
   const json request = read_object(body, keys);
   const json frame = request.value("frame", json());
@@ -349,7 +233,7 @@ json run_frame(const Context& context, const std::string& body) {
   return json::object();
 }
 
-json run_preview(const Context& context, const std::string& body) {
+json run_preview(const CommandContext& context, const std::string& body) {
   const std::array<std::string, 1> keys{"dual"};
   const json request = read_object(body, keys);
   const auto dual = request.find("dual");
@@ -360,7 +244,7 @@ json run_preview(const Context& context, const std::string& body) {
 
 struct Command {
   std::string_view name;
-  json (*run)(const Context&, const std::string& body);
+  json (*run)(const CommandContext&, const std::string& body);
 };
 constexpr Command kCommands[] = {{"camera.json", run_camera}, {"frame.json", run_frame},
                                  {"lights.json", run_lights}, {"preview.json", run_preview},

@@ -105,7 +105,7 @@ SceneDescription SceneFollower::load_shown() {
   });
   lights_ = shown_lights(scene);
   std::vector<Override> chosen = overrides_;
-  for (Override& override : light_change_overrides(lights_)) chosen.push_back(std::move(override));
+  for (Override& override : light_change_overrides(lights_, path_)) chosen.push_back(std::move(override));
   if (frame_) chosen.push_back({"frames", std::to_string(frame)});
   if (camera_) {
     for (Override& override : camera_overrides(*camera_)) chosen.push_back(std::move(override));
@@ -123,30 +123,33 @@ SceneDescription SceneFollower::load_shown() {
 /// that were changed in the file since by others than commands of this view.
 LightChanges SceneFollower::shown_lights(const SceneDescription& scene) {
   SceneParts own;
-  for (const auto& light : scene.lights.items) {
-    const std::string part = "lights." + light.name;
-    if (const auto found = scene.parts.find(part); found != scene.parts.end()) own.insert(*found);
+  for (const auto& part : scene.parts) {
+    if (part.first.starts_with("lights.") || part.first.starts_with("magnets.")) own.insert(part);
   }
-  constexpr size_t kPrefix = std::string_view("lights.").size();
-  std::set<std::string> differing;  // names of the lights that the file has changed
+  const auto item_of = [](const std::string& part) {
+    const size_t dot = part.find('.');
+    return RigItem(part.substr(dot + 1), part.starts_with("magnets."));
+  };
+  std::set<RigItem> differing;  // those that the file has changed
   for (const SceneParts& parts : {own, own_lights_}) {
     for (const auto& [part, hash] : parts) {
       const auto now = own.find(part), then = own_lights_.find(part);
       if (now == own.end() || then == own_lights_.end() || now->second != then->second)
-        differing.insert(part.substr(kPrefix));
+        differing.insert(item_of(part));
     }
   }
-  const std::set<std::string> written = state_.control().take_written_lights(differing);
-  const auto is_old = [&](const std::string& name, const LightChange& change) {
-    const std::string part = "lights." + name;
+  const std::set<RigItem> written = state_.control().take_written_lights(differing);
+  const auto is_old = [&](const RigItem& item, const LightChange& change) {
+    const std::string part = item.block() + "." + item.name;
     const auto now = own.find(part), then = own_lights_.find(part);
-    if (written.contains(name) && now != own.end()) return false;
+    if (written.contains(item) && now != own.end()) return false;
     if (!change.added_type.empty()) return now != own.end();
     return now == own.end() || (then != own_lights_.end() && then->second != now->second);
   };
   LightChanges lights = state_.control().lights();
   const bool changed =
       std::erase_if(lights, [&](const auto& item) { return is_old(item.first, item.second); }) > 0;
+  if (!differing.empty() && !own_lights_.empty()) state_.control().forget_rig();
   if (changed) {
     state_.control().change_lights([&](LightChanges& all) {
       std::erase_if(all, [&](const auto& item) { return is_old(item.first, item.second); });

@@ -67,9 +67,42 @@ class ViewControl {
     change(lights_);
     if (changed_) changed_();
   }
+  /// Does the same, so that undo_rig() takes the change back. Changes with the same name of a gesture are
+  /// taken back together.
+  template <class Change>
+  void change_rig(const Change& change, const std::string& gesture = {}) {
+    const std::lock_guard lock(mutex_);
+    LightChanges before = lights_;
+    change(lights_);
+    if (gesture.empty() || gesture != gesture_ || undo_.empty()) undo_.push_back(std::move(before));
+    if (undo_.size() > kMaxUndo) undo_.erase(undo_.begin());
+    gesture_ = gesture;
+    if (changed_) changed_();
+  }
+  /// Takes the last change_rig() back. Returns false if there is none since the scene file got or lost
+  /// lights.
+  bool undo_rig() {
+    const std::lock_guard lock(mutex_);
+    if (undo_.empty()) return false;
+    lights_ = std::move(undo_.back());
+    undo_.pop_back();
+    gesture_.clear();
+    if (changed_) changed_();
+    return true;
+  }
+  bool can_undo_rig() const {
+    const std::lock_guard lock(mutex_);
+    return !undo_.empty();
+  }
+  /// Forgets what undo_rig() would take back: the changes were made to another scene file.
+  void forget_rig() {
+    const std::lock_guard lock(mutex_);
+    undo_.clear();
+  }
   /// Ends changes that the scene file has now, unless newer ones have replaced them. A newer change of an
   /// added light becomes one of a light of the scene.
   void end_lights(const LightChanges& ended) {
+    forget_rig();
     change_lights([&](LightChanges& lights) {
       for (const auto& [name, change] : ended) {
         const auto found = lights.find(name);
@@ -83,16 +116,16 @@ class ViewControl {
   }
   /// Announces that a command is going to write lights into the scene file. This change of the file does not
   /// end their changes.
-  void begin_writing_lights(const std::set<std::string>& names) {
+  void begin_writing_lights(const std::set<RigItem>& items) {
     const std::lock_guard lock(mutex_);
-    writing_lights_.insert(names.begin(), names.end());
+    writing_lights_.insert(items.begin(), items.end());
   }
   /// Returns those of some lights that were announced since the last call that named them.
-  std::set<std::string> take_written_lights(const std::set<std::string>& names) {
+  std::set<RigItem> take_written_lights(const std::set<RigItem>& items) {
     const std::lock_guard lock(mutex_);
-    std::set<std::string> written;
-    for (const std::string& name : names) {
-      if (writing_lights_.erase(name) > 0) written.insert(name);
+    std::set<RigItem> written;
+    for (const RigItem& item : items) {
+      if (writing_lights_.erase(item) > 0) written.insert(item);
     }
     return written;
   }
@@ -129,6 +162,8 @@ class ViewControl {
   }
 
  private:
+  static constexpr size_t kMaxUndo = 200;
+
   template <class T>
   T locked(const T& value) const {
     const std::lock_guard lock(mutex_);
@@ -139,7 +174,9 @@ class ViewControl {
   std::optional<CameraMove> camera_;
   std::optional<int> frame_;
   LightChanges lights_;
-  std::set<std::string> writing_lights_;
+  std::vector<LightChanges> undo_;  // lights_ before each change_rig()
+  std::string gesture_;             // of the last change_rig()
+  std::set<RigItem> writing_lights_;
   bool dual_ = false;
   std::optional<PixelBox> region_;
   std::atomic<uint32_t> region_version_{0};

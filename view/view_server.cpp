@@ -48,12 +48,15 @@ std::string state_json(ViewState& view, const Picture* picture) {
                      {"height", camera.height},
                      {"moved", camera.moved},
                      {"note", status.camera_note}};
-  state["lights"] = nlohmann::json::array();
+  state["lights"] = state["magnets"] = nlohmann::json::array();
   for (const ViewLight& light : status.lights)
-    state["lights"].push_back(
-        {{"name", light.name}, {"type", light.type}, {"values", light.values}, {"changed", light.changed}});
+    state[light.item.block()].push_back({{"name", light.item.name},
+                                         {"type", light.type},
+                                         {"values", light.values},
+                                         {"changed", light.changed}});
   state["dual"] = view.control().dual();
   state["lights_changed"] = !view.control().lights().empty();
+  state["lights_undo"] = view.control().can_undo_rig();
   state["region"] =
       region ? nlohmann::json{region->x0, region->y0, region->x1, region->y1} : nlohmann::json();
   state["frame"] = status.frame;

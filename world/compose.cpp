@@ -12,6 +12,7 @@
 #include "procedurals/detail/detail_policy.h"
 #include "procedurals/fur.h"
 #include "render/light/plate_light.h"
+#include "render/light/spot_light.h"
 #include "world/archives.h"
 #include "world/camera_frame.h"
 #include "world/coat_motion.h"
@@ -183,6 +184,10 @@ LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame
     lights.push_back(made_at(position, [&, &of = name] {
       return make_light(of, exposed, frame, assets.textures, job.ledger, origin);
     }));
+    const auto* spot = dynamic_cast<const SpotLight*>(lights.back().get());
+    if (spot && spot->is_dark())
+      job.progress.warn(to_string(std::get<SpotLightParams>(params).profile.position) +
+                        ": the profile has no light within the cone of the spot");
   }
   if (const AssetPath& plate = scene.image.background; !plate.empty()) {
     lights.push_back(

@@ -14,6 +14,7 @@
 #include "world/camera_check.h"
 #include "world/camera_frame.h"
 #include "world/complete_scene.h"
+#include "world/dark_lights.h"
 #include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
 #include "world/light_links.h"
@@ -301,28 +302,6 @@ void complete_frame(const SceneSource& source, std::vector<Override> overrides, 
     scene.framed_at = list.frames.front();
 }
 
-}  // namespace
-
-std::optional<std::string> why_dark(const SceneDescription& scene) {
-  const auto shines = [](const auto& light) {
-    const auto& keys = light.intensity.keys();
-    if constexpr (requires { light.power > 0; }) {
-      if (!std::optional<float>(light.power).value_or(1)) return false;
-    }
-    return max_component(light.radiance) > 0 &&
-           std::any_of(keys.begin(), keys.end(), [](const auto& key) { return key.second > 0; });
-  };
-  for (const auto& light : scene.lights.items) {
-    if (std::visit(shines, light.value)) return {};
-  }
-  if (!scene.lights.items.empty())
-    return "every light has the radiance or intensity 0: pictures will be black";
-  return scene.from_rib ? "there is no light: pictures will be black; add a LightSource that Pelage supports"
-                        : "there is no light: pictures will be black; add one to `lights`";
-}
-
-namespace {
-
 SceneDescription read_scene(const SceneSource& source, const std::vector<Override>& overrides,
                             const RibUse& use) {
   Problems problems;
@@ -346,6 +325,7 @@ SceneDescription read_scene(const SceneSource& source, const std::vector<Overrid
       check_gather(scene, *document, problems);
       check_motion_files(scene, *document, problems);
       warn_of_visibility(scene, *document, scene.warnings);
+      warn_of_dark_lights(scene, *document, scene.warnings);
       complete_frame(source, overrides, *document, scene);
       set_scale(scene);
     }

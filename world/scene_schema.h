@@ -155,9 +155,6 @@ struct SceneDescription {
 /// material on a skin.
 void check_references(const SceneDescription& scene, Problems& problems);
 
-/// Returns why no light reaches anything, so that pictures are black, or nothing if there is light.
-std::optional<std::string> why_dark(const SceneDescription& scene);
-
 /// Reads a scene file with its includes, or a RIB file (rib_document()), applies the overrides, and checks
 /// everything that can be checked without the assets. Throws Error (kInput) with all mistakes, in the order
 /// of the file. `use`: what the user states about its RIB files.

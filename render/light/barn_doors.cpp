@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light/barn_doors.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -17,7 +19,38 @@ bool passes_flap(float inside, float slope, float length, float degrees) {
   return slope * height - inside <= length * std::sin(degrees * kFlapRadians);
 }
 
+/// The edge of a flap in the plane across its hinge.
+struct FlapEdge {
+  float side, height;
+};
+
+/// Returns the smallest slope, of either sign, of the rays that pass between two opposite flaps; infinite if
+/// none does. The rays start at height 0, between -`half` and `half`.
+float least_slope(float half, const FlapEdge& low, const FlapEdge& high) {
+  const auto least = [&](float place) { return (low.side - place) / low.height; };
+  const auto most = [&](float place) { return (high.side - place) / high.height; };
+  const auto gap = [&](float place) { return most(place) - least(place); };  // linear
+  float from = -half, to = half;
+  if (!(gap(from) > 0) && !(gap(to) > 0)) return std::numeric_limits<float>::infinity();
+  if (!(gap(from) > 0) || !(gap(to) > 0)) {
+    const float edge = from + (to - from) * gap(from) / (gap(from) - gap(to));
+    (gap(from) > 0 ? to : from) = edge;
+  }
+  return std::max({0.0f, std::min(least(from), least(to)), -std::max(most(from), most(to))});
+}
+
 }  // namespace
+
+bool BarnDoors::are_closed(const V2f& half_size, float max_slope) const {
+  if (!(length > 0)) return false;
+  const auto edge = [&](float half, float degrees, float outwards) {
+    const float angle = degrees * kFlapRadians;
+    return FlapEdge{outwards * (half + length * std::sin(angle)), length * std::cos(angle)};
+  };
+  const float x = least_slope(half_size.x, edge(half_size.x, left, -1), edge(half_size.x, right, 1));
+  const float y = least_slope(half_size.y, edge(half_size.y, bottom, -1), edge(half_size.y, top, 1));
+  return std::isinf(x) || std::isinf(y) || std::hypot(x, y) >= max_slope;
+}
 
 bool BarnDoors::pass(const V2f& place, const V2f& half_size, const V3f& direction) const {
   if (!(length > 0)) return true;

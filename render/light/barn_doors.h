@@ -15,6 +15,8 @@ struct BarnDoors {
   /// Returns whether a ray passes the doors. `place`: its start, relative to the centre of the rectangle.
   /// `direction`: x points to the right side, y to the top, z straight ahead.
   bool pass(const V2f& place, const V2f& half_size, const V3f& direction) const;
+  /// Returns whether no light passes at all. `max_slope`: SpreadGrid::max_slope() of the rectangle.
+  bool are_closed(const V2f& half_size, float max_slope) const;
   static const Schema<BarnDoors>& schema();
 };
 

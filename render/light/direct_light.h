@@ -54,7 +54,9 @@ struct LightPoint {
 
 /// Memory of one thread, reused for each scatter point.
 struct DirectLightScratch {
-  LightChoices choices;  ///< the current point's
+  LightChoices choices;                    ///< the current point's
+  std::vector<float> selecting;            ///< random numbers that select the lights of the candidates
+  std::vector<LightSet::Choice> selected;  ///< these lights
   std::vector<LightPoint> points;
   uint32_t proved = 0;  ///< count of candidates that the last propose() left out because the skin blocks them
 };
@@ -139,8 +141,8 @@ class DirectLight {
     return pdf * points * static_cast<float>(rays_);
   }
   template <class LobePdf>
-  std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
-                                        DirectLightScratch& scratch) const;
+  std::optional<LightPoint> light_point(const ScatterPoint& point, const LightSet::Choice& choice, float u,
+                                        const LobePdf& lobe_pdf, DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
   const FarLightSamples* const far_;
@@ -155,24 +157,28 @@ void DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobePdf
   const uint32_t count = candidates();
   scratch.points.clear();
   scratch.proved = 0;
+  // Each point alone is uniformly distributed; together they form a lattice that takes the lights in turn.
+  scratch.selecting.resize(count);
+  scratch.selected.resize(count);
+  for (uint32_t k = 0; k < count; ++k)
+    scratch.selecting[k] = std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne);
+  lights_.choose(scratch.choices, scratch.selecting, scratch.selected);
   for (uint32_t k = 0; k < count; ++k) {
-    // Each point alone is uniformly distributed; together they form a lattice that takes the lights in turn.
     const float turn = u.y + static_cast<float>(k) * kGolden;
-    const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
-                 std::min(turn - std::floor(turn), kBelowOne));
-    if (const auto sample = light_point(point, at, lobe_pdf, scratch)) scratch.points.push_back(*sample);
+    const float at = std::min(turn - std::floor(turn), kBelowOne);
+    if (const auto sample = light_point(point, scratch.selected[k], at, lobe_pdf, scratch))
+      scratch.points.push_back(*sample);
   }
 }
 
 template <class LobePdf>
-std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, const V2f& u,
-                                                   const LobePdf& lobe_pdf,
+std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, const LightSet::Choice& choice,
+                                                   float u, const LobePdf& lobe_pdf,
                                                    DirectLightScratch& scratch) const {
-  const LightSet::Choice choice = lights_.choose(scratch.choices, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
   const Light& light = lights_.light(choice.light);
   if (!point.receives(light)) return std::nullopt;
-  const V2f place(choice.remapped, u.y);
+  const V2f place(choice.remapped, u);
   const auto seen =
       far_ ? far_->sample(choice.light, point.position(), place) : light.sample(point.position(), place);
   if (!seen || !(seen->pdf > 0)) return std::nullopt;

@@ -17,6 +17,7 @@
 
 namespace pelage {
 
+class LightProfile;
 class TextureLibrary;
 
 // Lengths are in scene units, also in the units of radiance and irradiance. The radiance of a light is
@@ -67,8 +68,10 @@ struct PointLightParams : LightEmission {
   float radius = 0.05f;
   std::optional<float> power;  ///< W; empty: 100, or as the profile states
   AssetPath profile;           ///< SpotCone::profile; empty: none
-  /// May read the profile, and throws Error (kInput) as read_ies() does.
+  /// Reads the profile if it states the power, and then throws Error (kInput) as read_ies() does.
   float unit_radiance() const;
+  /// The same with the profile, which has been read; null: there is none.
+  float unit_radiance(const LightProfile* read) const;
   static const Schema<PointLightParams>& schema();
 };
 /// See SpotLight.
@@ -79,12 +82,14 @@ struct SpotLightParams : LightEmission {
   Keyed<V3f> look_at{V3f(0, 0, -1)};
   V3f up{0, 1, 0};  ///< of the gobo and the profile
   float radius = 0.05f;
-  std::optional<float> power;   ///< W, of the lamp without its cone; empty: 100, or as the profile states
-  float cone = 40;              ///< whole angle in degrees
-  float softness = 0.2f;        ///< SpotCone::softness
-  AssetPath file;               ///< SpotCone::gobo; empty: none
-  AssetPath profile;            ///< SpotCone::profile; empty: none
-  float unit_radiance() const;  ///< of the whole sphere, as PointLightParams::unit_radiance()
+  std::optional<float> power;  ///< W, of the lamp without its cone; empty: 100, or as the profile states
+  float cone = 40;             ///< whole angle in degrees
+  float softness = 0.2f;       ///< SpotCone::softness
+  AssetPath file;              ///< SpotCone::gobo; empty: none
+  AssetPath profile;           ///< SpotCone::profile; empty: none
+  /// Of the whole sphere, as PointLightParams::unit_radiance().
+  float unit_radiance() const;
+  float unit_radiance(const LightProfile* read) const;
   static const Schema<SpotLightParams>& schema();
 };
 struct SunLightParams : LightEmission {

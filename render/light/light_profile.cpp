@@ -75,6 +75,20 @@ LightProfile::LightProfile(IesPhotometry ies, MemoryCharge charge)
   for (float& value : ies_.candela) value = static_cast<float>(value / mean);
 }
 
+bool LightProfile::is_dark_within(float degrees) const {
+  const std::vector<float>& angles = ies_.vertical;
+  if (angles.front() >= degrees) return true;
+  // Intensities are interpolated up to the first angle that is not within.
+  const auto end = std::lower_bound(angles.begin(), angles.end(), degrees);
+  const auto count = std::min(static_cast<size_t>(end - angles.begin()) + 1, angles.size());
+  for (size_t row = 0; row < ies_.candela.size(); row += angles.size()) {
+    const auto first = ies_.candela.begin() + static_cast<std::ptrdiff_t>(row);
+    if (std::any_of(first, first + static_cast<std::ptrdiff_t>(count), [](float v) { return v > 0; }))
+      return false;
+  }
+  return true;
+}
+
 float LightProfile::factor(const V3f& direction) const {
   const float vertical = std::acos(std::clamp(direction.z, -1.0f, 1.0f)) * kToDegrees;
   if (!(vertical >= ies_.vertical.front() && vertical <= ies_.vertical.back())) return 0;

@@ -27,6 +27,8 @@ class LightProfile {
   /// linearly between angles, and are 0 beyond the vertical angles of the file. The lamp shines along z:
   /// there, the vertical angle is 0. The horizontal angle is 0 at -y and 90 degrees at -x.
   float factor(const V3f& direction) const;
+  /// Returns whether no light is closer to the axis than an angle, in degrees.
+  bool is_dark_within(float degrees) const;
   /// Returns the radiant power of the lamp by the file, in W, if each of its lumens has 1 / kLumensPerWatt.
   float watts() const { return watts_; }
 

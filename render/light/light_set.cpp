@@ -20,6 +20,7 @@ LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights)
   for (uint32_t i = 0; i < size(); ++i) {
     groups_[i] = i;
     if (lights_[i]->is_infinitely_far()) far_.push_back(i);
+    any_visible_ = any_visible_ || lights_[i]->visible();
   }
   if (size() - far_.size() <= kMaxListed) return;
   tree_ = LightTree(lights_);
@@ -28,16 +29,27 @@ LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights)
   group_count_ = first + tree_.group(kNearGroups, first, groups_);
 }
 
-LightSet::Choice LightSet::choose(const LightChoices& choices, float u) const {
-  Choice choice = choose(choices.probabilities, u);
-  if (tree_.empty() || !(choice.probability > 0)) return choice;
-  if (choice.light < far_.size()) {
-    choice.light = far_[choice.light];
-    return choice;
+void LightSet::choose(LightChoices& choices, std::span<const float> u, std::span<Choice> chosen) const {
+  const auto is_in_tree = [this](const Choice& choice) {
+    return !tree_.empty() && choice.probability > 0 && choice.light >= far_.size();
+  };
+  choices.ways.clear();
+  for (size_t i = 0; i < u.size(); ++i) {
+    chosen[i] = choose(choices.probabilities, u[i]);
+    if (is_in_tree(chosen[i]))
+      choices.ways.push_back({choices.cut[chosen[i].light - far_.size()], 1, chosen[i].remapped});
   }
-  const LightTree::Choice in_node =
-      tree_.choose(choices.cut[choice.light - far_.size()], choices.from, choice.remapped);
-  return {in_node.light, choice.probability * in_node.probability, in_node.remapped};
+  if (tree_.empty()) return;
+  tree_.descend(choices.from, choices.ways);
+  auto way = choices.ways.begin();
+  for (Choice& choice : chosen.first(u.size())) {
+    if (is_in_tree(choice)) {
+      choice = {tree_.light(*way), choice.probability * way->probability, way->u};
+      ++way;
+    } else if (choice.probability > 0) {
+      choice.light = far_[choice.light];
+    }
+  }
 }
 
 float LightSet::probability(const LightChoices& choices, size_t light) const {
@@ -79,10 +91,12 @@ LightSet::Choice LightSet::choose(std::span<const float> probabilities, float u)
   for (size_t i = 0; i < probabilities.size(); ++i) {
     const float p = probabilities[i];
     if (!(p > 0.0f)) continue;
-    choice = {i, p, std::min(rest / p, kBelowOne)};
-    if (rest < p) break;
-    rest -= p;  // the last light gets the rounding remainder
+    if (choice.probability > 0) rest -= choice.probability;
+    choice.light = i;
+    choice.probability = p;
+    if (rest < p) break;  // the last light gets the rounding remainder
   }
+  if (choice.probability > 0) choice.remapped = std::min(rest / choice.probability, kBelowOne);
   return choice;
 }
 

@@ -17,6 +17,8 @@ struct LightChoices {
   V3f from{0};
   std::vector<float> probabilities;  ///< of each light; with a tree, of each far light and each node of `cut`
   std::vector<uint32_t> cut;         ///< nodes of the tree
+  std::vector<float> importances;    ///< of `cut`
+  std::vector<LightTree::Way> ways;  ///< memory of LightSet::choose()
 };
 
 /// The lights of a scene, and random selection among them. For MIS, callers must multiply the pdf of a light
@@ -28,6 +30,8 @@ class LightSet {
 
   size_t size() const { return lights_.size(); }
   const Light& light(size_t i) const { return *lights_[i]; }
+  /// Returns whether camera rays see any light.
+  bool any_visible() const { return any_visible_; }
   /// For Light::link() after the parts of the frame are known; nothing else may change.
   Light& light(size_t i) { return *lights_[i]; }
 
@@ -93,8 +97,8 @@ class LightSet {
     prepare(
         from, lobes, [](const Light&) { return true; }, choices);
   }
-  /// Selects a light, as choose() above.
-  Choice choose(const LightChoices& choices, float u) const;
+  /// Selects a light for each random number, as choose() above. A tree selects many at once in less time.
+  void choose(LightChoices& choices, std::span<const float> u, std::span<Choice> chosen) const;
   /// Returns the probability that choose() selects a light.
   float probability(const LightChoices& choices, size_t light) const;
 
@@ -124,6 +128,7 @@ class LightSet {
   std::vector<uint32_t> far_;     // lights that are infinitely far
   std::vector<uint32_t> groups_;  // by light
   size_t group_count_ = 0;
+  bool any_visible_ = false;
 };
 
 template <class Density, class Reaches>
@@ -135,13 +140,13 @@ void LightSet::prepare(const V3f& from, const Density& lobes, const Reaches& rea
     probabilities(from, lobes, reaches, choices.probabilities);
     return;
   }
-  tree_.cut(from, choices.cut);
+  tree_.cut(from, choices.cut, choices.importances);
   choices.probabilities.clear();
   for (const uint32_t light : far_)
     choices.probabilities.push_back(reaches(*lights_[light]) ? lights_[light]->importance(from) : 0.0f);
-  for (const uint32_t node : choices.cut) {
-    const float importance = tree_.importance(node, from);
-    const float lobe = importance > 0 ? towards_lobes(tree_.center(node) - from, lobes) : 0.0f;
+  for (size_t i = 0; i < choices.cut.size(); ++i) {
+    const float importance = choices.importances[i];
+    const float lobe = importance > 0 ? towards_lobes(tree_.center(choices.cut[i]) - from, lobes) : 0.0f;
     choices.probabilities.push_back(importance * lobe);
   }
   normalise(choices.probabilities);

@@ -50,6 +50,22 @@ LightTree::LightTree(const Lights& lights) : leaves_(lights.size()) {
   if (near.empty()) return;
   nodes_.reserve(2 * near.size() - 1);
   build(lights, near, 0);
+  forks_.resize(nodes_.size());
+  for (uint32_t i = 0; i < nodes_.size(); ++i) fork(i);
+}
+
+void LightTree::fork(uint32_t index) {
+  Fork& fork = forks_[index];
+  fork.child[0] = fork.child[1] = 0;
+  if (nodes_[index].is_leaf()) return;
+  fork.child[0] = index + 1, fork.child[1] = nodes_[index].second;
+  for (size_t i = 0; i < 2; ++i) {
+    const Node& child = nodes_[fork.child[i]];
+    fork.x[i] = child.ball.center.x, fork.y[i] = child.ball.center.y, fork.z[i] = child.ball.center.z;
+    fork.radius2[i] = child.ball.radius * child.ball.radius;
+    fork.power[i] = child.power;
+    fork.has_leaf = fork.has_leaf || child.is_leaf();
+  }
 }
 
 void LightTree::build(const Lights& lights, std::span<uint32_t> of, uint32_t parent) {
@@ -80,6 +96,7 @@ void LightTree::build(const Lights& lights, std::span<uint32_t> of, uint32_t par
     build(lights, of.first(of.size() / 2), index);
     const auto second = static_cast<uint32_t>(nodes_.size());
     build(lights, of.subspan(of.size() / 2), index);
+    node.second = second;
     node.power = nodes_[index + 1].power + nodes_[second].power;
   }
   node.end = static_cast<uint32_t>(nodes_.size());
@@ -92,26 +109,57 @@ float LightTree::importance(uint32_t index, const V3f& from) const {
   return node.power / std::max((node.ball.center - from).length2(), node.ball.radius * node.ball.radius);
 }
 
-void LightTree::cut(const V3f& from, std::vector<uint32_t>& cut) const {
-  cut.clear();
-  if (empty()) return;
-  // What dividing a node may gain; 0 if nothing.
-  const auto gain = [&](uint32_t index) {
-    const Node& node = nodes_[index];
-    const float size = node.is_leaf() ? 0.0f : spread(node.ball, from);
-    return size > kSmall ? size * importance(index, from) : 0.0f;
-  };
-  float gains[kMaxCut] = {gain(0)};
-  cut.push_back(0);
-  while (cut.size() < kMaxCut) {
-    const auto best = static_cast<size_t>(std::max_element(gains, gains + cut.size()) - gains);
-    if (!(gains[best] > 0)) return;
-    const uint32_t node = cut[best];
-    cut[best] = node + 1;
-    gains[best] = gain(node + 1);
-    gains[cut.size()] = gain(second(node));
-    cut.push_back(second(node));
+// Inlined although it is large: half the time of selecting a light is spent here.
+[[gnu::always_inline]] inline LightTree::ForkSeen LightTree::look(const Fork& fork, const V3f& from) const {
+  ForkSeen seen;
+  for (size_t i = 0; i < 2; ++i) {
+    const float x = fork.x[i] - from.x, y = fork.y[i] - from.y, z = fork.z[i] - from.z;
+    const float distance2 = std::max(x * x + y * y + z * z, fork.radius2[i]);
+    seen.importance[i] = fork.power[i] / distance2;
+    seen.spread[i] = fork.radius2[i] / distance2;
   }
+  if (!fork.has_leaf) return seen;
+  for (size_t i = 0; i < 2; ++i) {
+    if (const Light* leaf = nodes_[fork.child[i]].leaf) {
+      seen.importance[i] = leaf->importance(from);
+      seen.spread[i] = 0;
+    }
+  }
+  return seen;
+}
+
+void LightTree::cut(const V3f& from, std::vector<uint32_t>& cut, std::vector<float>& importances) const {
+  cut.clear();
+  importances.clear();
+  if (empty()) return;
+  cut.resize(kMaxCut);
+  importances.resize(kMaxCut);
+  cut[0] = 0;
+  importances[0] = importance(0, from);
+  float gains[kMaxCut];  // what dividing a node may gain; 0 if nothing
+  const auto gain = [](float size, float importance) { return size > kSmall ? size * importance : 0.0f; };
+  gains[0] = nodes_[0].is_leaf() ? 0.0f : gain(spread(nodes_[0].ball, from), importances[0]);
+  size_t count = 1;
+  while (count < kMaxCut) {
+    size_t best = 0;
+    float most = gains[0];
+    for (size_t i = 1; i < count; ++i) {  // without branches, unlike std::max_element()
+      best = gains[i] > most ? i : best;
+      most = gains[i] > most ? gains[i] : most;
+    }
+    if (!(most > 0)) break;
+    const Fork& fork = forks_[cut[best]];
+    const ForkSeen seen = look(fork, from);
+    for (const size_t i : {0, 1}) {
+      const size_t place = i == 0 ? best : count;
+      cut[place] = fork.child[i];
+      importances[place] = seen.importance[i];
+      gains[place] = gain(seen.spread[i], seen.importance[i]);
+    }
+    ++count;
+  }
+  cut.resize(count);
+  importances.resize(count);
 }
 
 size_t LightTree::group(size_t count, uint32_t first, std::span<uint32_t> groups) const {
@@ -123,7 +171,7 @@ size_t LightTree::group(size_t count, uint32_t first, std::span<uint32_t> groups
                                        [&](uint32_t a, uint32_t b) { return gain(a) < gain(b); });
     if (nodes_[*best].is_leaf()) break;
     const uint32_t node = std::exchange(*best, *best + 1);
-    nodes.push_back(second(node));
+    nodes.push_back(nodes_[node].second);
   }
   for (size_t i = 0; i < nodes.size(); ++i) {
     for (uint32_t node = nodes[i]; node < nodes_[nodes[i]].end; ++node) {
@@ -133,25 +181,29 @@ size_t LightTree::group(size_t count, uint32_t first, std::span<uint32_t> groups
   return nodes.size();
 }
 
-float LightTree::first_share(uint32_t node, const V3f& from) const {
-  const float a = importance(node + 1, from), b = importance(second(node), from);
+float LightTree::first_share(const Fork& fork, const V3f& from) const {
+  const auto [a, b] = look(fork, from).importance;
   if (!(b > 0)) return a > 0 ? 1.0f : -1.0f;
   if (!(a > 0)) return 0;
   return kLeastShare + (1 - 2 * kLeastShare) / (1 + b / a);
 }
 
-LightTree::Choice LightTree::choose(uint32_t node, const V3f& from, float u) const {
-  float probability = 1;
-  while (!nodes_[node].is_leaf()) {
-    const float share = first_share(node, from);
-    if (share < 0) return {};
-    const bool takes_first = u < share;
-    const float p = takes_first ? share : 1 - share;
-    u = std::min((takes_first ? u : u - share) / p, kBelowOne);
-    probability *= p;
-    node = takes_first ? node + 1 : second(node);
+void LightTree::descend(const V3f& from, std::span<Way> ways) const {
+  for (bool moves = true; moves;) {
+    moves = false;
+    for (Way& way : ways) {
+      const Fork& fork = forks_[way.node];
+      if (fork.child[0] == 0 || !(way.probability > 0)) continue;
+      const float share = first_share(fork, from);
+      // Tables instead of branches, which no processor could predict.
+      const size_t child = way.u < share ? 0 : 1;
+      const float shares[] = {share, 1 - share}, before[] = {0, share};
+      way.u = std::min((way.u - before[child]) / shares[child], kBelowOne);
+      way.probability = share < 0 ? 0.0f : way.probability * shares[child];
+      way.node = fork.child[child];
+      moves = true;
+    }
   }
-  return {nodes_[node].light, probability, u};
 }
 
 LightTree::Place LightTree::find(size_t light, const V3f& from, std::span<const uint32_t> cut) const {
@@ -161,7 +213,7 @@ LightTree::Place LightTree::find(size_t light, const V3f& from, std::span<const 
     if (at != cut.end()) return {static_cast<size_t>(at - cut.begin()), probability};
     PELAGE_CHECK(node != 0);
     const uint32_t parent = nodes_[node].parent;
-    const float share = first_share(parent, from);
+    const float share = first_share(forks_[parent], from);
     if (share < 0) return {};
     probability *= node == parent + 1 ? share : 1 - share;
   }

@@ -36,9 +36,16 @@ constexpr float kRadians = std::numbers::pi_v<float> / 180;
 float radiance_of(const std::optional<float>& power, float area) { return power ? *power / (kPi * area) : 1; }
 float sphere_area(float radius) { return 4 * kPi * radius * radius; }
 
-float lamp_power(const std::optional<float>& power, const AssetPath& profile) {
-  if (power) return *power;
-  return profile.empty() ? 100.0f : LightProfile(read_profile(profile)).watts();
+/// Radiance of a lamp, of which a profile may state the power.
+float lamp_radiance(const std::optional<float>& power, const LightProfile* profile, float radius) {
+  return radiance_of(power.value_or(profile ? profile->watts() : 100.0f), sphere_area(radius));
+}
+
+template <class Lamp>
+float lamp_radiance(const Lamp& p) {
+  if (p.power || p.profile.empty()) return p.unit_radiance(nullptr);
+  const LightProfile profile(read_profile(p.profile));
+  return p.unit_radiance(&profile);
 }
 
 std::vector<MeshLight::Triangle> triangles_of(ControlMesh cage, const M44f& to_scene) {
@@ -94,7 +101,8 @@ struct LightMaker {
     if (!p.profile.empty()) {
       const Aim axes = lamp_axes(p);
       SpotCone all{-axes.x, axes.y, axes.z, kPi, 0, nullptr, profile(p.profile)};
-      return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(all), radiance(p), p.visible);
+      const Rgb emitted = radiance(p, p.unit_radiance(all.profile.get()));
+      return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(all), emitted, p.visible);
     }
     return std::make_unique<SphereLight>(name, center(p), p.radius, radiance(p), p.visible);
   }
@@ -103,7 +111,8 @@ struct LightMaker {
     const Aim axes = facing(p, p.up);
     SpotCone cone{-axes.x,           axes.y, axes.z, 0.5f * p.cone * kRadians, p.softness, image(p.file),
                   profile(p.profile)};
-    return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(cone), radiance(p), p.visible);
+    const Rgb emitted = radiance(p, p.unit_radiance(cone.profile.get()));
+    return std::make_unique<SpotLight>(name, center(p), p.radius, std::move(cone), emitted, p.visible);
   }
 
   std::unique_ptr<Light> operator()(const SunLightParams& p) const {
@@ -179,8 +188,9 @@ struct LightMaker {
 
   template <class Params>
   Rgb radiance(const Params& p) const {
-    return p.color() * (p.strength(frame) * p.unit_radiance());
+    return radiance(p, p.unit_radiance());
   }
+  Rgb radiance(const LightEmission& p, float unit) const { return p.color() * (p.strength(frame) * unit); }
 
   std::shared_ptr<const Texture> image(const AssetPath& file) const {
     if (file.empty()) return nullptr;
@@ -205,11 +215,13 @@ float DiskLightParams::unit_radiance() const {
   return radiance_of(power, kPi * radius * radius * static_cast<float>(SpreadGrid(spread).passed_fraction()));
 }
 float SphereLightParams::unit_radiance() const { return radiance_of(power, sphere_area(radius)); }
-float PointLightParams::unit_radiance() const {
-  return radiance_of(lamp_power(power, profile), sphere_area(radius));
+float PointLightParams::unit_radiance() const { return lamp_radiance(*this); }
+float PointLightParams::unit_radiance(const LightProfile* read) const {
+  return lamp_radiance(power, read, radius);
 }
-float SpotLightParams::unit_radiance() const {
-  return radiance_of(lamp_power(power, profile), sphere_area(radius));
+float SpotLightParams::unit_radiance() const { return lamp_radiance(*this); }
+float SpotLightParams::unit_radiance(const LightProfile* read) const {
+  return lamp_radiance(power, read, radius);
 }
 float SunLightParams::unit_radiance() const {
   const double sine = std::sin(0.5 * double{angle} * kRadians);

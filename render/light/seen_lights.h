@@ -13,6 +13,7 @@ namespace pelage {
 template <class Found>
 void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction, float time, float distance,
                  const Found& found) {
+  if (!lights.any_visible()) return;
   lights.on_ray(origin, direction, distance, [&](size_t i) {
     if (!lights.light(i).visible()) return;
     const auto hit = lights.light(i).seen(origin, direction, time);

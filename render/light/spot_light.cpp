@@ -34,6 +34,10 @@ SpotLight::SpotLight(std::string name, const V3f& center, float radius, SpotCone
       sphere_(std::move(name), center, radius, radiance, visible),
       cone_(std::move(cone)) {}
 
+bool SpotLight::is_dark() const {
+  return cone_.profile && cone_.profile->is_dark_within(cone_.half_angle * 180 / std::numbers::pi_v<float>);
+}
+
 std::optional<LightSample> SpotLight::sample(const V3f& from, const V2f& u) const {
   std::optional<LightSample> sample = sphere_.sample(from, u);
   if (!sample) return std::nullopt;

@@ -29,6 +29,8 @@ class SpotLight final : public Light {
   SpotLight(std::string name, const V3f& center, float radius, SpotCone cone, const Rgb& radiance,
             bool visible);
 
+  /// Returns whether the profile has no light within the cone.
+  bool is_dark() const;
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;

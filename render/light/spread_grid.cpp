@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pelage {
@@ -17,6 +18,10 @@ float SpreadGrid::factor(float cosine) const {
   if (!(slope_ > 0)) return 1;
   const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
   return cosine > 0 ? std::max(0.0f, 1 - slope_ * sine / cosine) : 0.0f;
+}
+
+float SpreadGrid::max_slope() const {
+  return slope_ > 0 ? 1 / slope_ : std::numeric_limits<float>::infinity();
 }
 
 /// The integral of cos * sin * factor up to the half angle, relative to the integral of cos * sin up to a

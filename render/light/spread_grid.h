@@ -14,6 +14,8 @@ class SpreadGrid {
 
   /// Returns the fraction of light that passes at an angle to the normal, given by its cosine.
   float factor(float cosine) const;
+  /// Returns the tangent of the angle to the normal beyond which no light passes; infinite without a grid.
+  float max_slope() const;
   /// Returns the fraction of the power of a panel that passes.
   double passed_fraction() const;
 

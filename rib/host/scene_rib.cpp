@@ -11,7 +11,7 @@
 #include "rib/host/camera_rib.h"
 #include "rib/host/shading_rib.h"
 #include "rib/host/skin_rib.h"
-#include "rib/host/yaml_text.h"
+#include "scene/yaml_text.h"
 #include "world/frame_coats.h"
 #include "world/frames.h"
 #include "world/regions.h"

@@ -7,7 +7,7 @@
 
 #include "base/value_readers.h"
 #include "render/sampling/warp.h"
-#include "rib/host/yaml_text.h"
+#include "scene/yaml_text.h"
 
 namespace pelage {
 namespace {

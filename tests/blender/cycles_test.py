@@ -82,6 +82,11 @@ class Lights(unittest.TestCase):
             self.assertLess(np.abs(blocks(ours) / blocks(truth) - 1).max(), 0.05, "a turned or mirrored profile")
             bpy.data.objects.remove(ob)
 
+    def test_profile_without_a_file(self):
+        ob = light("POINT", (0.5, 0, 1.5), energy=0.2, shadow_soft_size=0.01)
+        add_profile(ob.data, file=new_path("ies"), strength=0.5)
+        self.assertAlmostEqual(self.ratio(), 1, delta=0.02)
+
     def test_sun(self):
         for angle in (0, 0.2):
             ob = light("SUN", (1, 0, 2), energy=3, angle=angle, color=(1, 0.5, 0.2))

@@ -116,6 +116,53 @@ class Exr(unittest.TestCase):
                 exr.read_header(data[:size] + value.to_bytes(4, "little", signed=True) + data[size + 4:])
 
 
+class Profiles(unittest.TestCase):
+    """IES textures, with plain objects for those of Blender."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        bpy = types.SimpleNamespace(path=types.SimpleNamespace(abspath=lambda name: name.replace("//", f"{folder.name}/")))
+        with mock.patch.dict(sys.modules, {"bpy": bpy, "mathutils": types.ModuleType("mathutils")}):
+            self.lights = importlib.import_module("addon.lights")
+        self.notes = set()
+
+    def block(self, node, strength=0.5):
+        """The block of a point of 4 W at the origin that shines to the right."""
+        strength = types.SimpleNamespace(is_linked=False, default_value=strength)
+        node.type, node.mute, node.inputs = "TEX_IES", False, {"Vector": types.SimpleNamespace(is_linked=False), "Strength": strength}
+        fac = types.SimpleNamespace(is_linked=True, links=[types.SimpleNamespace(from_node=node)])
+        color = types.SimpleNamespace(is_linked=False, default_value=[1.0, 1.0, 1.0, 1.0])
+        emission = types.SimpleNamespace(type="EMISSION", inputs={"Color": color, "Strength": fac})
+        data = types.SimpleNamespace(type="POINT", energy=4.0, color=[1.0, 0.5, 0.25], shadow_soft_size=0.1, use_nodes=True)
+        axes_of_light = {"position": [0, 0, 0], "look_at": [1, 0, 0], "up": [0, 1, 0]}
+        with mock.patch.object(self.lights, "surface_node", return_value=emission), \
+             mock.patch.object(self.lights, "_axes", return_value=axes_of_light):
+            return self.lights.light_block(types.SimpleNamespace(data=data), None, self.notes)
+
+    def test_text_within_the_scene(self):
+        text = types.SimpleNamespace(as_string=lambda: "TILT=NONE")
+        block = self.block(types.SimpleNamespace(mode="INTERNAL", ies=text, filepath=""))
+        self.assertEqual((block["profile_text"], block["intensity"], block["look_at"]), ("TILT=NONE", 2, [1, 0, 0]))
+        self.assertNotIn("power", block)
+        self.assertEqual(self.notes, set())
+
+    def test_a_file_beside_the_scene(self):
+        (self.path / "lamp.ies").touch()
+        block = self.block(types.SimpleNamespace(mode="EXTERNAL", ies=None, filepath="//lamp.ies"))
+        self.assertEqual((block["profile"], block["intensity"]), (str(self.path / "lamp.ies"), 2))
+        self.assertEqual(self.notes, set())
+
+    def test_a_light_without_its_file_is_even_and_as_bright_as_in_cycles(self):
+        for mode, name in (("INTERNAL", ""), ("EXTERNAL", ""), ("EXTERNAL", "//lamp.ies"), ("EXTERNAL", "//")):
+            block = self.block(types.SimpleNamespace(mode=mode, ies=None, filepath=name))
+            self.assertEqual(block["power"], 200, (mode, name))
+            for key in ("profile", "profile_text", "intensity", "look_at"):
+                self.assertNotIn(key, block)
+            self.assertEqual(self.notes, {"IES textures without a file: 100 times as bright, as in Cycles"})
+
+
 class Schema(unittest.TestCase):
     def test_another_program_is_an_error_and_is_not_asked_each_time(self):
         with tempfile.TemporaryDirectory() as name:

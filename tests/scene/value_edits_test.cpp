@@ -127,11 +127,18 @@ TEST(ValueEdits, BlocksAreAddedAndRemoved) {
   EXPECT_EQ(with_values("lights:\n  key: {a: 1}\n  sky: {a: 2}", "scene", {removed("sky")}),
             "lights:\n  key: {a: 1}\n");
 
+  // Blocks of the document begin with their first block, and end with the last one.
+  EXPECT_EQ(with_values("render: {}", "scene", {add}),
+            "render: {}\nlights:\n  lamp: {type: sphere, radius: 0.5}\n");
+  EXPECT_EQ(with_values("lights:\n  # warm\n  key: {a: 1}\nrender: {}\n", "scene", {removed("key")}),
+            "render: {}\n");
+  EXPECT_EQ(with_values("render: {}\r\n", "scene", {add, removed("lamp")}), "render: {}\r\n");
+
   for (const auto& [text, edit, why] : std::vector<std::tuple<std::string, ValueEdit, std::string>>{
            {lines, {{"lights", "key"}, {}, "{a: 1}"}, "exists already"},
            {lines, removed("kye"), "has no `lights.kye`"},
            {"lights: {key: {a: 1}}", removed("key"), "is the last one here"},
-           {"render: {}", add, "has no block `lights`"}})
+           {"{render: {}}", add, "has no block `lights`"}})
     EXPECT_NE(error_of([&] { with_values(text, "scene", {edit}); }).find(why), std::string::npos) << why;
 }
 

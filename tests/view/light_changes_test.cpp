@@ -23,7 +23,7 @@ std::map<std::string, Numbers> shown(const std::string& lamp) {
   const SceneDescription scene =
       load_scene(files.path("scene.yaml"), {{.key = "lights.lamp", .value = lamp}});
   for (const ViewLight& light : view_lights(scene, 1, {}))
-    if (light.name == "lamp") return light.values;
+    if (light.item.name == "lamp") return light.values;
   return {};
 }
 

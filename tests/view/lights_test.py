@@ -5,6 +5,7 @@ import math
 try:
     from selenium import webdriver
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import Select
 except ImportError:
     pass
@@ -18,8 +19,8 @@ LIGHTS = """lights:
 
 
 class Lights(PageTest):
-    def light(self, name):
-        return next((light for light in self.state()["lights"] if light["name"] == name), None)
+    def light(self, name, block="lights"):
+        return next((light for light in self.state()[block] if light["name"] == name), None)
 
     def place(self, browser, point):
         """Where a point of the scene is in the window of the browser."""
@@ -111,6 +112,34 @@ class Lights(PageTest):
         self.until(lambda: self.light("sphere") is None)
         browser.find_element(By.ID, "rig_reset").click()
         self.until(lambda: self.light("sphere") is not None)
+
+        # A copy beside the first, which is taken back.
+        self.settle(browser)
+        Select(browser.find_element(By.ID, "rig_list")).select_by_visible_text("sphere (sphere)")
+        browser.find_element(By.ID, "rig_copy").click()
+        self.until(lambda: self.attribute(browser, "light") == "sphere_2")
+        self.assertEqual(self.light("sphere_2")["values"]["radius"], self.light("sphere")["values"]["radius"])
+        self.assertGreater(math.dist(self.light("sphere_2")["values"]["position"], self.light("sphere")["values"]["position"]), 0.1)
+        browser.find_element(By.ID, "rig_undo").click()
+        self.until(lambda: self.light("sphere_2") is None)
+
+        # A magnet, moved, taken back in one step, and written.
+        Select(browser.find_element(By.ID, "rig_type")).select_by_visible_text("rectangle magnet")
+        browser.find_element(By.ID, "rig_add").click()
+        self.until(lambda: self.attribute(browser, "light") == "magnet")
+        self.settle(browser)
+        window = self.light("magnet", "magnets")["values"]
+        self.drag(browser, window["position"], 30, 0)
+        self.assertGreater(math.dist(self.light("magnet", "magnets")["values"]["position"], window["position"]), 0.05)
+        webdriver.ActionChains(browser).key_down(Keys.CONTROL).send_keys("z").key_up(Keys.CONTROL).perform()
+        self.until(lambda: self.light("magnet", "magnets")["values"]["position"] == window["position"])
+        self.settle(browser)
+        self.shoot(browser, "magnet_added")
+        browser.find_element(By.ID, "rig_text").click()
+        self.until(lambda: "magnet: {type: rectangle" in browser.execute_script("return document.getElementById('text').value"))
+        browser.find_element(By.ID, "write_text").click()
+        self.until(lambda: not self.state()["lights_changed"])
+        self.assertIn("\nmagnets:\n  magnet: {type: rectangle", (self.path / "scene.yaml").read_text())
 
         # Many bounces are previewed.
         browser.find_element(By.ID, "dual").click()

@@ -53,6 +53,28 @@ class View(ViewTest):
         state = self.wait(lambda state: state["done"] and state["edits"] == 2)
         self.assertGreaterEqual(state["strands_regrown"], 1)
 
+    def test_files_of_lights_are_followed(self):
+        profile = "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 50\n0 90\n0\n{0} {0}\n"
+        (self.path / "lamp.ies").write_text(profile.format(500))
+        (self.path / "gobo.ppm").write_bytes(b"P6 1 1 255\n\xff\xff\xff")
+        self.replace("lights: {sky: {type: environment, radiance: 0.3}}", """lights:
+  lamp: {type: point, position: [2, 4, 5], profile: lamp.ies}
+  panel: {type: rectangle, position: [-4, 4, 4], look_at: [0, 0, 0], file: gobo.ppm}""")
+        self.view()
+        _, last = (self.rest(), self.get("picture.exr")[1])
+        for edit, (name, data) in enumerate((("lamp.ies", profile.format(2000).encode()), ("gobo.ppm", b"P6 1 1 255\n\xff\0\0")), 1):
+            (self.path / name).write_bytes(data)
+            state = self.wait(lambda state: state["done"] and state["edits"] == edit)
+            self.assertEqual((state["error"], state["strands_regrown"]), ("", 0), name)
+            self.assertNotEqual(self.get("picture.exr")[1][-2000:], last[-2000:], name)
+            self.expect_rendered()
+            last = self.get("picture.exr")[1]
+        # A mistake is named with its line, and the last picture stays.
+        (self.path / "lamp.ies").write_text(profile.format(-1))
+        state = self.wait(lambda state: state["error"])
+        self.assertIn("lamp.ies:7: expected a candela value not below 0", state["error"])
+        self.assertEqual(self.get("picture.exr")[1][-2000:], last[-2000:])
+
     def test_strangers_are_refused(self):
         self.view()
         self.rest()

@@ -35,7 +35,8 @@ class WrittenLightsTest : public testing::Test {
       const ViewStatus status = state_.status();
       for (const ViewLight& shown : status.lights) {
         const auto found = shown.values.find("position");
-        if (status.done() && shown.name == "key" && found != shown.values.end() && found->second == position)
+        if (status.done() && shown.item.name == "key" && found != shown.values.end() &&
+            found->second == position)
           return true;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

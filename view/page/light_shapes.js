@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where lights are in the picture: their outlines, and the handles that the mouse drags. A light is {name, type, values}.
+// Where lights and magnets are in the picture: their outlines, and the handles that the mouse drags. A light is
+// {name, type, block, values}; `block` is "lights" or "magnets".
 import {add, cross, distance, dot, forward, length, rotate, unit} from "./camera.js";
 
 const kSides = 40;  // of a polygon that stands for a circle
@@ -106,15 +107,43 @@ export function orbited({type, values}, camera, view, yaw, pitch, factor = 1) {
   return {position: add(pivot, turn(add(values.position, pivot, -1)))};
 }
 
-// A new light between the camera and the point that it looks at, and large enough to see.
-export function newLight(type, camera, view) {
-  const far = distance(camera), size = 0.12 * far;
-  const position = add(add(add(camera.look_at, view.f, -0.4 * far), view.r, 0.12 * far), view.u, 0.12 * far);
-  if (type === "sun") return {direction: unit(add(camera.look_at, position, -1))};
-  const values = {position};
-  if (type !== "sphere" && type !== "point") values.look_at = camera.look_at;
+// A length that is a quarter of the height of the picture at a depth, or less with wide lenses.
+const quarterOf = (camera, depth) =>
+  Math.min(0.2 * depth, 0.25 * (camera.height > 0 ? camera.height : 2 * depth * Math.tan(camera.fov * Math.PI / 360)));
+
+// A place near `wanted` where no light is: `taken` are their places.
+export function freePlace(wanted, taken, camera, view) {
+  const step = 0.2 * quarterOf(camera, Math.max(view.depthOf(wanted), 0.01 * distance(camera)));
+  const isTaken = place => taken.some(other => distance({position: place, look_at: other}) < 0.6 * step);
+  let place = wanted;
+  while (isTaken(place)) place = add(place, view.r, step);
+  return place;
+}
+
+// The factor of the radiance with which a new light gives the point that the camera looks at an irradiance of pi, as a white sky.
+function brightness(type, values, camera) {
+  const d = distance({position: values.position ?? camera.position, look_at: camera.look_at}), radius = values.radius?.[0];
+  const radiance = {
+    rectangle: () => Math.PI * d * d / (values.size[0] * values.size[1]),
+    disk: () => d * d / (radius * radius),
+    sphere: () => d * d / (radius * radius),
+    point: () => Math.PI * 4 * Math.PI * d * d / 100,  // their power is 100 W
+    spot: () => Math.PI * 4 * Math.PI * d * d / 100,
+    sun: () => 1 / Math.sin(0.53 * Math.PI / 360) ** 2,
+  }[type]();
+  return Number(radiance.toPrecision(2));
+}
+
+// A new light or magnet between the camera and the point that it looks at, and large enough to see.
+export function newLight(type, block, taken, camera, view) {
+  const far = distance(camera), size = quarterOf(camera, 0.6 * far);
+  const wanted = add(add(add(camera.look_at, view.f, -0.4 * far), view.r, size), view.u, size);
+  const position = freePlace(wanted, taken, camera, view), values = {};
+  if (type === "sun") values.direction = unit(add(camera.look_at, position, -1));
+  else values.position = position;
+  if (["rectangle", "disk", "spot"].includes(type)) values.look_at = camera.look_at;
   if (type === "rectangle") values.size = [size, size];
-  else values.radius = [type === "point" || type === "spot" ? size / 8 : size / 2];
-  if (type === "rectangle" || type === "disk" || type === "sphere") values.intensity = [20];
+  else if (type !== "sun") values.radius = [type === "point" || type === "spot" ? size / 8 : size / 2];
+  if (block === "lights") values.intensity = [brightness(type, values, camera)];
   return values;
 }

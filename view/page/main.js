@@ -35,6 +35,7 @@ const toolOf = event => takesClick(event, "region_mode", "shiftKey") ? region : 
 const canvas = view.canvas =
   new PictureCanvas(element("canvas"), pixel => { cursor = pixel; showValues(); }, toolOf);
 const lights = new LightTool(view);
+canvas.canvas.addEventListener("pointermove", event => lights.hover(event));
 const mixer = new Mixer(() => { chooseBeauty(); drawSoon(); });
 
 function chooseBeauty() {
@@ -179,6 +180,10 @@ element("camera_text").addEventListener("click", () => offerText("Camera of this
 
 const keys = {d: "dual", f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode", p: "play"};
 addEventListener("keydown", event => {
+  if (lights.open && !element("scene_text").open && lights.takesKey(event)) {
+    event.preventDefault();
+    return;
+  }
   const isTyping = ["SELECT", "TEXTAREA", "INPUT"].includes(event.target.tagName) && event.target.type !== "range";
   if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;
   if (event.key in keys) element(keys[event.key]).click();

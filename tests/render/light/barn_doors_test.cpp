@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -46,6 +47,57 @@ TEST(BarnDoors, BlockTheRaysThatMeetAFlap) {
   EXPECT_GT(passed, 60);
   EXPECT_LT(passed, 340);
   EXPECT_TRUE(BarnDoors().pass({0.5f, 1}, half, V3f(0.9f, 0, 0.1f))) << "without a length, there are none";
+}
+
+/// Whether any of many rays passes the doors within a slope.
+bool is_open(const BarnDoors& doors, const V2f& half, float max_slope) {
+  constexpr int kSlopes = 720, kPlaces = 81;
+  // Rays are found along x and y alone, and the least slopes combined.
+  float least[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    least[axis] = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < kPlaces * kSlopes; ++i) {
+      const float t = 2 * static_cast<float>(i % kPlaces) / (kPlaces - 1) - 1;
+      const double degrees = (i / kPlaces + 0.5) * 180 / kSlopes - 90;
+      const auto slope = static_cast<float>(std::tan(degrees * kPiD / 180));
+      BarnDoors along = doors;  // the doors across the other axis are open
+      (axis == 0 ? along.top : along.right) = 89, (axis == 0 ? along.bottom : along.left) = 89;
+      V2f place(0);
+      V3f direction(0, 0, 1);
+      place[axis] = t * half[axis];
+      direction[axis] = slope;
+      if (along.pass(place, half, direction)) least[axis] = std::min(least[axis], std::abs(slope));
+    }
+  }
+  return std::hypot(least[0], least[1]) < max_slope;
+}
+
+TEST(BarnDoors, AreClosedIfNoRayPasses) {
+  TestRandom random(4);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  int open = 0, closed = 0, by_grid = 0;
+  for (int i = 0; i < 40; ++i) {
+    BarnDoors doors;
+    doors.length = random.between(0.2f, 1);
+    for (float* angle : {&doors.left, &doors.right, &doors.top, &doors.bottom})
+      *angle = random.between(-60, 20);
+    const V2f half(random.between(0.1f, 0.4f), random.between(0.1f, 0.4f));
+    BarnDoors narrower = doors;  // if these pass light, those have no slit that the search could miss
+    for (float* angle : {&narrower.left, &narrower.right, &narrower.top, &narrower.bottom}) *angle -= 2;
+    for (const float max_slope : {kInfinity, 0.3f}) {
+      if (doors.are_closed(half, max_slope)) {
+        ++(max_slope < 1 ? by_grid : closed);
+        EXPECT_FALSE(is_open(doors, half, max_slope)) << i;
+      } else if (!narrower.are_closed(half, max_slope)) {
+        ++open;
+        EXPECT_TRUE(is_open(doors, half, max_slope)) << i;
+      }
+    }
+  }
+  EXPECT_GT(open, 10);
+  EXPECT_GT(closed, 10);
+  EXPECT_GT(by_grid, closed);
+  EXPECT_FALSE(BarnDoors().are_closed(V2f(1), kInfinity));
 }
 
 RectangleLight shaped(bool two_sided = false) {

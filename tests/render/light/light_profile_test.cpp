@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/temporary_folder.h"
@@ -184,6 +186,32 @@ TEST_F(Lamps, DistributeTheirPowerByTheProfile) {
   const V3f dark(0, 8, 0);
   EXPECT_EQ(irradiance(*light, dark, V3f(0, -1, 0), 100), 0);
   EXPECT_GT(light->importance(dark), 0) << "other rows of the profile may be near";
+}
+
+TEST(LightProfile, KnowsWhereItIsDark) {
+  // 0 up to 90 degrees, then a peak at 120.
+  const LightProfile up = profile_of("4 2", "0 90 120 180 0 180 0 0 0 0 0 0 10 0");
+  EXPECT_TRUE(up.is_dark_within(20));
+  EXPECT_TRUE(up.is_dark_within(90));
+  EXPECT_FALSE(up.is_dark_within(91));
+  EXPECT_FALSE(around().is_dark_within(1));
+  EXPECT_TRUE(profile_of("2 1", "90 180 0 5 5").is_dark_within(85));
+}
+
+TEST_F(Lamps, ReadTheirProfileOnce) {
+  const auto openings = [this](const LightParams& params) {
+    const int events = inotify_init1(IN_NONBLOCK);
+    inotify_add_watch(events, (folder_.path() / "lamp.ies").c_str(), IN_OPEN);
+    made(params);
+    inotify_event all[100];
+    const ssize_t size = read(events, all, sizeof all);
+    close(events);
+    return size / static_cast<ssize_t>(sizeof(inotify_event));  // without names
+  };
+  EXPECT_EQ(openings(point_), 1);
+  SpotLightParams spot;
+  spot.profile = point_.profile;
+  EXPECT_EQ(openings(spot), 1);
 }
 
 TEST_F(Lamps, HaveThePowerOfTheFileWithoutAPower) {

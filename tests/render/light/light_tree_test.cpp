@@ -75,11 +75,21 @@ TEST(LightTree, OnlyUsefulLightsHaveProbabilitiesAndFewAreLost) {
 TEST(LightTree, ChoosesLightsWithTheirProbabilities) {
   const LightSet set = many_lights(40);
   TestRandom random(4);
-  const LightChoices choices = choices_at(set, V3f(0.3f, -0.2f, 0.5f));
+  LightChoices choices = choices_at(set, V3f(0.3f, -0.2f, 0.5f));
   constexpr int kDraws = 100'000;
   std::vector<double> counts(set.size() + 1), expected(set.size() + 1);
+  std::vector<float> numbers(kDraws);
+  for (float& number : numbers) number = random.unit();
+  std::vector<LightSet::Choice> chosen(kDraws);
+  set.choose(choices, numbers, chosen);
   for (int i = 0; i < kDraws; ++i) {
-    const LightSet::Choice choice = set.choose(choices, random.unit());
+    const LightSet::Choice& choice = chosen[i];
+    if (i % 1000 == 0) {
+      LightSet::Choice alone;
+      set.choose(choices, {&numbers[i], 1}, {&alone, 1});
+      EXPECT_EQ(alone.light, choice.light);
+      EXPECT_EQ(alone.remapped, choice.remapped);
+    }
     ASSERT_GE(choice.remapped, 0);
     ASSERT_LT(choice.remapped, 1);
     if (choice.probability > 0) {

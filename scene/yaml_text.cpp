@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rib/host/yaml_text.h"
+#include "scene/yaml_text.h"
 
 #include <algorithm>
 #include <filesystem>
