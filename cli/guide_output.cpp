@@ -10,7 +10,7 @@
 #include "cli/output_files.h"
 #include "geom/io/strand_file.h"
 #include "groom/operators/follow.h"
-#include "world/guide_strands.h"
+#include "world/guide_poses.h"
 #include "world/motion_files.h"
 
 namespace pelage {

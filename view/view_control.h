@@ -75,7 +75,7 @@ class ViewControl {
     LightChanges before = lights_;
     change(lights_);
     if (gesture.empty() || gesture != gesture_ || undo_.empty()) undo_.push_back(std::move(before));
-    if (undo_.size() > kMaxUndo) undo_.erase(undo_.begin());
+    forget_oldest();
     gesture_ = gesture;
     if (changed_) changed_();
   }
@@ -162,7 +162,18 @@ class ViewControl {
   }
 
  private:
-  static constexpr size_t kMaxUndo = 200;
+  static constexpr size_t kMaxUndo = 200, kMaxUndoChanges = 40'000;
+
+  /// Keeps what undo_rig() needs within its limits; the last step always stays.
+  void forget_oldest() {
+    size_t changes = 0, steps = 0;
+    for (auto step = undo_.rbegin(); step != undo_.rend(); ++step) {
+      changes += step->size();
+      if (steps > 0 && (changes > kMaxUndoChanges || steps == kMaxUndo)) break;
+      ++steps;
+    }
+    undo_.erase(undo_.begin(), undo_.end() - static_cast<std::ptrdiff_t>(steps));
+  }
 
   template <class T>
   T locked(const T& value) const {

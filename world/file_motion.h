@@ -16,8 +16,8 @@ namespace pelage {
 /// interpolated linearly. Arguments of the constructor must outlive the object.
 class FileMotion {
  public:
-  /// `frame`: to be rendered. A missing file of another frame is replaced by that of the nearest frame
-  /// towards this one. Throws Error (kMemory) if the guides do not fit.
+  /// `frame`: the one to render. If the file of another frame is missing, that of the nearest frame towards
+  /// `frame` takes its place. Throws Error (kMemory) if the guides do not fit.
   FileMotion(const SceneDescription& scene, const Assets& assets, const MovingCoat& coat, double frame,
              const Job& job);
   /// Returns the turns at half a frame number. Throws Error (kInput) at the place in the scene that names the

@@ -7,6 +7,7 @@
 #include "geom/limit_surface.h"
 #include "groom/groom.h"
 #include "groom/sim/guide_simulation.h"
+#include "world/coat_motion.h"
 #include "world/frame_characters.h"
 
 namespace pelage {
@@ -41,5 +42,11 @@ std::vector<RodRoot> guide_roots(const Groom& groom, const LimitSurface& skin, d
 /// are 0.
 std::vector<GuideShape> groomed_guides(const Groom& groom, const LimitSurface& rest, double scale,
                                        const Job& job);
+
+/// Returns the guides of a coat at a frame as strands in world space, where `dynamics` moves them, in the
+/// order of Groom::guides(). FileMotion reads them again. `turns`: at this frame; empty: the guides follow
+/// their skin rigidly. The strands have no widths.
+Strands guide_strands(const Assets& assets, const MovingCoat& coat, double frame, const GuideTurns& turns,
+                      const Job& job);
 
 }  // namespace pelage

@@ -18,7 +18,7 @@
 #include "world/frame_characters.h"
 #include "world/leaf_sizes.h"
 #include "world/light_links.h"
-#include "world/motion_files.h"
+#include "world/motion_files_check.h"
 #include "world/presets.h"
 #include "world/regions.h"
 #include "world/scene_schema.h"

@@ -12,11 +12,6 @@
 
 namespace pelage {
 
-/// Adds a problem for each groom whose `dynamics.files` cannot hold the guides of every frame: no placeholder
-/// for the frame number, no strand file, more than one coat, or keys beside it that have no effect.
-/// `document`: of the scene.
-void check_motion_files(const SceneDescription& scene, const Value& document, Problems& problems);
-
 /// Returns the first and the last frame whose guides a picture of a frame needs, if they are known at whole
 /// frames.
 std::pair<int, int> whole_frames_around(const CameraParams& camera, double frame);

@@ -30,7 +30,7 @@ class DualScattering {
 
     /// Returns the scattering of the light after it has crossed `strands` strands; infinity: none arrives.
     /// `through`: fraction that arrives without meeting any of them, which the fibre scatters as `direct`.
-    /// Everything else is in the group `diffuse`. The density remains that of `direct`.
+    /// All other light goes to the group `diffuse`. The result keeps the density of `direct`.
     FibreValue eval(const FibreValue& direct, float strands, float through) const;
 
    private:

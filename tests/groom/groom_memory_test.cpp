@@ -320,7 +320,8 @@ class StopsAfterLooks final : public Progress {
 };
 
 TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
-  // Placing this many looks some hundred times; each place where it looks is left by the same error.
+  // Placing this many looks some hundred times; twelve of these places, from the first to the last, are left
+  // by the same error.
   const Workers one(1);
   const int64_t count = 22'000;
   for (const int64_t limit : {int64_t{0}, follicle_temporary_bytes(count)}) {

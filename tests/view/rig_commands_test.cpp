@@ -106,6 +106,25 @@ TEST_F(RigCommands, ChangesAreTakenBackGestureByGesture) {
   EXPECT_FALSE(state_.control().can_undo_rig());
 }
 
+TEST_F(RigCommands, TheOldestStepsAreForgotten) {
+  ViewControl& control = state_.control();
+  const auto undone = [&] {
+    int steps = 0;
+    while (control.undo_rig()) ++steps;
+    return steps;
+  };
+  for (int i = 0; i < 300; ++i)
+    control.change_rig([&](LightChanges& changes) { changes["key"].values["radius"] = {i + 1.0}; });
+  EXPECT_EQ(undone(), 200);
+  EXPECT_EQ(control.lights().at("key").values.at("radius"), std::vector<double>{100});
+  // Fewer steps where each holds many changes.
+  control.change_rig([&](LightChanges& changes) {
+    for (int i = 0; i < 10'000; ++i) changes["light_" + std::to_string(i)].values["radius"] = {1};
+  });
+  for (int i = 0; i < 20; ++i) control.change_rig([](LightChanges&) {});
+  EXPECT_EQ(undone(), 3);
+}
+
 TEST_F(RigCommands, AMixOfALightThatIsNotInTheFileStaysInTheView) {
   const std::string before = read_file(path());
   run(R"({"action": "add", "type": "sphere", "values": {"intensity": [20]}})");

@@ -11,7 +11,7 @@
 #include "groom/operators/follow.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
-#include "world/guide_strands.h"
+#include "world/guide_poses.h"
 #include "world/motion_files.h"
 
 namespace pelage::file_motion_test {
